@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::job::{Job, KnobVariant};
-pub use drypoint_gpu::{Gpu, GpuError, Kernel, Precision};
+pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
 use drypoint_gpu::{Inputs, Renderer, Volume};
 use drypoint_reference::ray::lattice::samples_in;
 use drypoint_scene::counts::Counts;
@@ -90,7 +90,10 @@ impl<'a> GpuJob<'a> {
 /// Frames of a job on a graphics card.
 pub struct GpuFrames<'a> {
     job: &'a Job,
+    gpu: &'a Gpu,
     renderer: Renderer<'a>,
+    /// A viewer's texture, where frames are shown.
+    shown: Option<wgpu::Texture>,
     samples: f64,
     rays_across: usize,
 }
@@ -101,11 +104,22 @@ impl<'a> GpuFrames<'a> {
     /// # Errors
     /// Same errors as [`Job::renderer`], an effect without a shader, and errors of the adapter.
     pub fn new(job: &'a Job, gpu: &'a Gpu) -> Result<Self, Failure> {
-        let on_gpu = GpuJob::new(job, gpu, Precision::Single)?;
-        let (shot, renderer) = (&on_gpu.shot, on_gpu.renderer()?);
+        Self::of_job(&GpuJob::new(job, gpu, Precision::Single)?)
+    }
+
+    /// Prepares frames of a scene with other knobs.
+    ///
+    /// # Errors
+    /// Same errors as [`GpuFrames::new`].
+    pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant) -> Result<Self, Failure> {
+        Self::of_job(&GpuJob::of(job, gpu, variant, Precision::Single)?)
+    }
+
+    fn of_job(on_gpu: &GpuJob<'a>) -> Result<Self, Failure> {
+        let (job, shot, renderer) = (on_gpu.job, &on_gpu.shot, on_gpu.renderer()?);
         let rays = (shot.rays_across * shot.rays_across) as f64;
         let samples = samples_in(&shot.lattice, &shot.view, job.volume.grid()) * rays;
-        Ok(Self { job, renderer, samples, rays_across: shot.rays_across })
+        Ok(Self { job, gpu: on_gpu.gpu, renderer, shown: None, samples, rays_across: shot.rays_across })
     }
 
     /// Returns about how many samples a frame has without skipping.
@@ -135,6 +149,40 @@ impl<'a> GpuFrames<'a> {
         self.renderer.turn(shot, self.job.volume.grid()).map_err(|error| failure(&error, self.job))
     }
 
+    /// Draws a frame into a texture, as a viewer does, and waits for it. Returns the seconds of its rays by the adapter's
+    /// clock; none where it has no clock.
+    ///
+    /// # Errors
+    /// Errors of the adapter, and a picture without a beauty.
+    pub fn show(&mut self) -> Result<Option<f64>, Failure> {
+        let texture = match self.shown.take() {
+            Some(texture) => texture,
+            None => {
+                let [width, height] = self.job.scene.picture.size.map(|n| n as u32);
+                self.gpu.device().create_texture(&wgpu::TextureDescriptor {
+                    label: Some("viewer"),
+                    size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension: wgpu::TextureDimension::D2,
+                    format: wgpu::TextureFormat::Rgba16Float,
+                    usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
+                    view_formats: &[],
+                })
+            }
+        };
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.shown = Some(texture);
+        let shown =
+            self.renderer.frame_into(&view).and_then(|()| self.gpu.wait()).and_then(|()| self.renderer.seconds());
+        shown.map_err(|error| failure(&error, self.job))
+    }
+
+    /// The texture of the last frame that was shown.
+    pub fn shown(&self) -> Option<&wgpu::Texture> {
+        self.shown.as_ref()
+    }
+
     /// Draws a frame, with its own counts.
     ///
     /// # Errors
@@ -144,6 +192,8 @@ impl<'a> GpuFrames<'a> {
         let picture = self.renderer.frame(progress).map_err(|error| failure(&error, self.job))?;
         let mut counts = Counts::default();
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
+        let on_card = self.renderer.seconds().map_err(|error| failure(&error, self.job))?;
+        counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
         Ok((picture, counts))
     }
 }
@@ -151,16 +201,17 @@ impl<'a> GpuFrames<'a> {
 /// Opens the adapter.
 ///
 /// # Errors
-/// No adapter, or one that gives no device.
-pub fn open() -> Result<Gpu, Failure> {
-    Gpu::new().map_err(|error| Failure::new(error.to_string(), "--backend gpu", remedy(&error)))
+/// No adapter, one that gives no device, or one without the unit that interpolates.
+pub fn open(interpolation: Interpolation) -> Result<Gpu, Failure> {
+    let gpu = Gpu::new().and_then(|gpu| gpu.interpolating(interpolation));
+    gpu.map_err(|error| Failure::new(error.to_string(), "--backend", remedy(&error)))
 }
 
 /// Returns an error of the adapter with the scene's key, if one is at fault.
 fn failure(error: &GpuError, job: &Job) -> Failure {
     let place = match error {
         GpuError::Missing { key, .. } => job.scene.given.position(key),
-        _ => "--backend gpu".into(),
+        _ => "--backend".into(),
     };
     Failure::new(error.to_string(), place, remedy(error))
 }
@@ -175,6 +226,7 @@ fn remedy(error: &GpuError) -> &'static str {
             "write volume.stride = 2, or leave --backend out: the CPU has more memory"
         }
         GpuError::Unfinished { .. } => "take fewer rays a pixel or a larger sampling.step, or leave --backend out",
+        GpuError::NoFilter { .. } => "write --backend gpu: the shader interpolates then",
         GpuError::TooManyPlanes { .. } => "take a larger sampling.step, or move the eye closer",
         GpuError::Lost { .. } | GpuError::Refused { .. } => "update the driver, or leave --backend out",
         GpuError::Missing { .. } | GpuError::NoDouble { .. } | GpuError::Material => {

@@ -4,8 +4,8 @@ use crate::block::Block;
 use crate::field::Scales;
 use crate::shader::{Constant, Shader};
 use crate::{
-    GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
-    surface, transfer,
+    GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, ray, shading,
+    style_transfer_functions, surface, transfer,
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
@@ -27,10 +27,11 @@ pub(crate) fn shader(
     layers: &[LayerKind],
     inputs: &Inputs<'_>,
     precision: Precision,
+    interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     refuse(shot)?;
-    let mut shader = Shader::default();
+    let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
     // The field and its rays.
     field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);

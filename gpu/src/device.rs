@@ -3,6 +3,20 @@
 use crate::GpuError;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// Features that a device should have where its adapter does: f64, a clock, and a texture unit that interpolates f32.
+pub const WANTED: wgpu::Features =
+    wgpu::Features::SHADER_F64.union(wgpu::Features::TIMESTAMP_QUERY).union(wgpu::Features::FLOAT32_FILTERABLE);
+
+/// The unit that interpolates between voxels ([GPU-2]).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Interpolation {
+    /// The shader, in its numbers.
+    #[default]
+    Exact,
+    /// The texture unit, where the kernel is trilinear. Hardware weighs voxels with 8 bits.
+    Fast,
+}
+
 /// The numbers that a shader computes in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Precision {
@@ -40,11 +54,12 @@ impl Precision {
 }
 
 /// A graphics adapter, ready for work.
+#[derive(Clone)]
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
-    has_double: bool,
+    interpolation: Interpolation,
     /// The driver's words on why the device was lost; none: it is there.
     lost: Arc<Mutex<Option<String>>>,
 }
@@ -62,23 +77,37 @@ impl Gpu {
         };
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|_| GpuError::NoAdapter)?;
         let info = adapter.get_info();
-        let wanted = wgpu::Features::SHADER_F64 | wgpu::Features::TIMESTAMP_QUERY;
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("drypoint"),
-            required_features: adapter.features() & wanted,
+            required_features: adapter.features() & WANTED,
             required_limits: adapter.limits(),
             ..Default::default()
         };
         let request = pollster::block_on(adapter.request_device(&descriptor));
         let (device, queue) =
             request.map_err(|error| GpuError::NoDevice { adapter: info.name.clone(), reason: error.to_string() })?;
+        Ok(Self::of(info, device, queue))
+    }
+
+    /// The adapter of a device that another program opened: a viewer's, say. [`WANTED`] features serve where the device has
+    /// them. The callback for a lost device is taken over.
+    pub fn of(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let lost = Arc::new(Mutex::new(None));
         let heard = Arc::clone(&lost);
         device.set_device_lost_callback(move |_, reason| {
             *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         });
-        let has_double = device.features().contains(wgpu::Features::SHADER_F64);
-        Ok(Self { device, queue, info, has_double, lost })
+        Self { device, queue, info, interpolation: Interpolation::Exact, lost }
+    }
+
+    /// The device, to make textures for [`Renderer::frame_into`](crate::Renderer::frame_into).
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The queue of the device.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
     }
 
     /// The adapter's name and driver, and whether it is software, for a person.
@@ -99,7 +128,24 @@ impl Gpu {
 
     /// Whether shaders can compute in f64.
     pub fn has_double(&self) -> bool {
-        self.has_double
+        self.device.features().contains(wgpu::Features::SHADER_F64)
+    }
+
+    /// The same device, whose renderers interpolate between voxels by a unit.
+    ///
+    /// # Errors
+    /// A texture unit that does not interpolate f32.
+    pub fn interpolating(&self, interpolation: Interpolation) -> Result<Self, GpuError> {
+        let filters = self.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE);
+        if interpolation == Interpolation::Fast && !filters {
+            return Err(GpuError::NoFilter { adapter: self.name().to_owned() });
+        }
+        Ok(Self { interpolation, ..self.clone() })
+    }
+
+    /// The unit that interpolates between voxels.
+    pub(crate) fn interpolation(&self) -> Interpolation {
+        self.interpolation
     }
 
     /// Runs commands of the device and turns what the driver says into an error. `what` names the data for which there may
@@ -123,7 +169,10 @@ impl Gpu {
     }
 
     /// Waits until all commands are done.
-    pub(crate) fn wait(&self) -> Result<(), GpuError> {
+    ///
+    /// # Errors
+    /// A device that is lost.
+    pub fn wait(&self) -> Result<(), GpuError> {
         let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
         self.is_there()?;
         polled.map(|_| ()).map_err(|error| self.lost_for(error.to_string()))

@@ -20,6 +20,12 @@ pub enum GpuError {
         /// The adapter's name.
         adapter: String,
     },
+    /// The adapter's texture unit does not interpolate f32.
+    #[error("{adapter} has no texture unit that interpolates numbers in f32")]
+    NoFilter {
+        /// The adapter's name.
+        adapter: String,
+    },
     /// The volume is larger than a texture can be, or has more than 2³¹ numbers.
     #[error("the volume has {} × {} × {} numbers with its border; {adapter} takes at most {most} along an axis, and 2147483648 in all", dims[0], dims[1], dims[2])]
     TooLarge {

@@ -11,6 +11,7 @@
 
 mod block;
 mod buffers;
+mod clock;
 mod compose;
 mod device;
 mod error;
@@ -18,6 +19,7 @@ mod field;
 mod interactive_volume_illustration;
 mod kernel;
 mod number;
+mod picture_buffers;
 mod ray;
 mod renderer;
 mod shader;
@@ -27,8 +29,9 @@ mod surface;
 mod transfer;
 mod volume;
 
-pub use device::{Gpu, Precision};
+pub use device::{Gpu, Interpolation, Precision, WANTED};
 pub use error::GpuError;
 pub use kernel::Kernel;
 pub use renderer::{Inputs, Renderer};
 pub use volume::Volume;
+pub use wgpu;

@@ -1,8 +1,11 @@
 //! Pictures of a shot, any number of them.
 
-use crate::buffers::{buffer, entry, list_entry, pipeline, read};
+use crate::buffers::{buffer, list_entry, pipeline, read};
+use crate::clock::Clock;
 use crate::field::Scales;
+use crate::picture_buffers::PictureBuffers;
 use crate::ray::layers::in_picture_units;
+use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
@@ -12,15 +15,13 @@ use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::labels::LabelVolume;
+use std::ops::Range;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
 
 /// About the most samples of one submission, so that no driver takes it for a fault.
 const SAMPLES_AT_ONCE: f64 = (1u64 << 26) as f64;
-
-/// The first channel of a pixel that is not refined lies below.
-const STAYS: f64 = -1e29;
 
 /// The first channel of a pixel whose rays the driver ended lies below.
 const UNFINISHED: f64 = -1.5e30;
@@ -53,6 +54,9 @@ pub struct Renderer<'g> {
     refinement: Option<Pass>,
     params: wgpu::Buffer,
     data: wgpu::BindGroup,
+    picture: PictureBuffers,
+    presentation: Option<Presentation>,
+    clock: Option<Clock>,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -86,7 +90,7 @@ impl<'g> Renderer<'g> {
     ) -> Result<Self, GpuError> {
         let precision = volume.precision;
         let layers = drawn_layers(shot);
-        let (shader, scales) = compose::shader(shot, &layers, inputs, precision)?;
+        let (shader, scales) = compose::shader(shot, &layers, inputs, precision, gpu.interpolation())?;
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
@@ -99,6 +103,10 @@ impl<'g> Renderer<'g> {
             &shader.block.bytes(precision),
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         )?;
+        let channels: usize = layers.iter().map(|layer| layer.channels().len()).sum();
+        let bytes_a_row = (shot.view.size[0] * channels) as u64 * precision.size();
+        let refined = refinement.as_ref().map(|pass: &Pass| &pass.layout);
+        let picture = PictureBuffers::new(gpu, &params, &draw.layout, refined, bytes_a_row, shot.view.size[1])?;
         let rays = (shot.rays_across * shot.rays_across) as f64;
         let planes = shot.lattice.planes(&shot.view, inputs.volume.grid());
         Ok(Self {
@@ -110,6 +118,9 @@ impl<'g> Renderer<'g> {
             refinement,
             params,
             data,
+            picture,
+            presentation: None,
+            clock: Clock::new(gpu)?,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
@@ -136,23 +147,19 @@ impl<'g> Renderer<'g> {
         let kinds: Vec<LayerKind> =
             self.layers.iter().flat_map(|&layer| std::iter::repeat_n(layer, layer.channels().len())).collect();
         let mut planes = vec![vec![0.0; width * height]; kinds.len()];
-        let half = if self.refinement.is_some() { 0.5 } else { 1.0 };
-        self.bands(None, &|share| progress(half * share), &mut |at, pixel| {
-            for (plane, &number) in planes.iter_mut().zip(pixel) {
-                plane[at] = number;
-            }
-        })?;
-        if self.refinement.is_some() {
-            let first: Vec<f64> = (0..width * height).flat_map(|at| [0, 1, 2, 3].map(|c| planes[c][at])).collect();
-            self.bands(Some(&first), &|share| progress(0.5 + 0.5 * share), &mut |at, pixel| {
-                // Layers of one ray keep that of the first picture.
-                let refined = kinds.iter().map(|&kind| kind == LayerKind::Beauty || kind.is_mean());
-                for ((plane, &number), is_refined) in planes.iter_mut().zip(pixel).zip(refined) {
-                    if is_refined && pixel[0] > STAYS {
-                        plane[at] = number;
-                    }
+        for first in (0..height).step_by(self.picture.rows) {
+            let rows = first..(first + self.picture.rows).min(height);
+            self.draw_rows(rows.clone(), Some(progress))?;
+            let bytes = self.picture.bytes_a_row * rows.len() as u64;
+            let numbers = self.precision.numbers(&read(self.gpu, &self.picture.back, bytes)?);
+            for (i, pixel) in numbers.chunks_exact(kinds.len()).take(width * rows.len()).enumerate() {
+                if pixel[0] < UNFINISHED {
+                    return Err(GpuError::Unfinished { adapter: self.gpu.name().to_owned() });
                 }
-            })?;
+                for (plane, &number) in planes.iter_mut().zip(pixel) {
+                    plane[first * width + i] = number;
+                }
+            }
         }
         for (plane, &kind) in planes.iter_mut().zip(&kinds) {
             plane.iter_mut().for_each(|number| *number = in_picture_units(kind, *number, &self.scales));
@@ -169,95 +176,116 @@ impl<'g> Renderer<'g> {
         Ok(Picture { width, height, layers })
     }
 
-    /// Runs the shader for bands of rows; of a refinement with the beauty of the first picture. `take` hears the place of
-    /// each pixel and its numbers.
-    fn bands(
-        &mut self,
-        first_picture: Option<&[f64]>,
-        progress: &dyn Fn(f64),
-        take: &mut dyn FnMut(usize, &[f64]),
-    ) -> Result<(), GpuError> {
-        let (gpu, [width, height]) = (self.gpu, self.size);
-        let channels: usize = self.layers.iter().map(|layer| layer.channels().len()).sum();
-        let (pass, samples, parts) = match (&self.refinement, first_picture) {
-            (Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row, 9),
-            _ => (&self.draw, self.samples_a_row, self.rays_across * self.rays_across),
+    /// Draws one frame into a viewer's texture, without waiting for it: the beauty in premultiplied linear light. The texture
+    /// is of `Rgba16Float`, at least as large as the picture, and allows `STORAGE_BINDING`.
+    ///
+    /// # Errors
+    /// A shot without a beauty, a picture that does not fit in one buffer, and a device that is lost.
+    pub fn frame_into(&mut self, target: &wgpu::TextureView) -> Result<(), GpuError> {
+        let [_, height] = self.size;
+        if self.picture.rows < height {
+            return Err(GpuError::TooManyBytes {
+                what: "the picture",
+                bytes: self.picture.bytes_a_row * height as u64,
+                most: self.gpu.device.limits().max_storage_buffer_binding_size,
+                adapter: self.gpu.name().to_owned(),
+            });
+        }
+        self.draw_rows(0..height, None)?;
+        let presentation = match self.presentation.take() {
+            Some(presentation) => presentation,
+            None => Presentation::new(self.gpu, self.precision, self.size, &self.layers)?,
         };
-        // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
-        let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };
-        // Rows whose samples are few enough and whose numbers fit in a buffer.
-        let bytes_a_row = (width * channels.max(4)) as u64 * self.precision.size();
-        let most = gpu.device.limits().max_storage_buffer_binding_size;
-        let fit = ((most / bytes_a_row.max(1)) as usize).saturating_sub(2).max(1);
-        let rows = ((SAMPLES_AT_ONCE / samples) as usize).max(GROUP as usize).min(fit).min(height);
-        let new = |rows: usize, usage| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("picture"),
-                size: bytes_a_row * rows as u64,
-                usage,
-                mapped_at_creation: false,
-            })
-        };
-        let usage = wgpu::BufferUsages::STORAGE;
-        let (out, back, before) = gpu.attempt("the picture", || {
-            let out = new(rows, usage | wgpu::BufferUsages::COPY_SRC);
-            let back = new(rows, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
-            (out, back, first_picture.map(|_| new(rows + 2, usage | wgpu::BufferUsages::COPY_DST)))
-        })?;
-        let mut entries = vec![entry(0, &self.params), entry(1, &out)];
-        entries.extend(before.iter().map(|before| entry(2, before)));
-        let group = gpu.attempt("the picture", || {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("draw"),
-                layout: &pass.layout,
-                entries: &entries,
-            })
-        })?;
-        for first in (0..height).step_by(rows) {
-            let end = (first + rows).min(height);
-            self.shader.block.set("first_row", first as f64);
-            self.shader.block.set("end_row", end as f64);
-            if let (Some(before), Some(picture)) = (&before, first_picture) {
-                // The row above the band may be missing; what stands in its place is not read.
-                let above = first.saturating_sub(1);
-                let numbers = &picture[4 * width * above..4 * width * (end + 1).min(height)];
-                let offset = (above + 1 - first) * 4 * width;
-                let offset = offset as u64 * self.precision.size();
-                gpu.attempt("the picture", || {
-                    gpu.queue.write_buffer(before, offset, &self.precision.bytes(numbers));
-                })?;
-            }
-            let bytes = (width * channels * (end - first)) as u64 * self.precision.size();
-            for part in (0..parts).step_by(parts_at_once) {
-                self.shader.block.set("first_part", part as f64);
-                self.shader.block.set("end_part", (part + parts_at_once) as f64);
-                gpu.attempt("the picture", || {
-                    gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
-                    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                    {
-                        let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
-                        let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                        run.set_pipeline(&pass.pipeline);
-                        run.set_bind_group(0, &group, &[]);
-                        run.set_bind_group(1, &self.data, &[]);
-                        run.dispatch_workgroups(groups[0], groups[1], 1);
-                    }
-                    if part + parts_at_once >= parts {
-                        encoder.copy_buffer_to_buffer(&out, 0, &back, 0, bytes);
-                    }
-                    gpu.queue.submit([encoder.finish()]);
-                })?;
-            }
-            let numbers = self.precision.numbers(&read(gpu, &back, bytes)?);
-            for (i, pixel) in numbers.chunks_exact(channels).enumerate() {
-                if pixel[0] < UNFINISHED {
-                    return Err(GpuError::Unfinished { adapter: gpu.name().to_owned() });
+        presentation.run(self.gpu, &self.picture.out, target)?;
+        self.presentation = Some(presentation);
+        Ok(())
+    }
+
+    /// Waits for the last frame and returns its seconds by the adapter's clock, from the first ray to the last; none where
+    /// the adapter has no such clock.
+    ///
+    /// # Errors
+    /// A device that is lost.
+    pub fn seconds(&self) -> Result<Option<f64>, GpuError> {
+        self.clock.as_ref().map(|clock| clock.seconds(self.gpu)).transpose()
+    }
+
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back. With `progress` each submission is
+    /// waited for.
+    fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<(), GpuError> {
+        let [width, height] = self.size;
+        // Edges are found in the rows around those that are refined, too.
+        let around = self.picture.rows_around(&rows, height);
+        let passes = 1 + usize::from(self.refinement.is_some());
+        self.shader.block.set("top_row", around.start as f64);
+        for pass in 0..passes {
+            let (pass_rows, rays) = if pass == 0 { (around.clone(), self.rays_across) } else { (rows.clone(), 3) };
+            let parts = rays * rays;
+            // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
+            let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };
+            let samples = self.samples_a_row * (parts_at_once as f64 / (self.rays_across * self.rays_across) as f64);
+            let band = ((SAMPLES_AT_ONCE / samples) as usize).max(GROUP as usize);
+            for first in pass_rows.clone().step_by(band) {
+                let end = (first + band).min(pass_rows.end);
+                self.shader.block.set("first_row", first as f64);
+                self.shader.block.set("end_row", end as f64);
+                for part in (0..parts).step_by(parts_at_once) {
+                    self.shader.block.set("first_part", part as f64);
+                    self.shader.block.set("end_part", (part + parts_at_once) as f64);
+                    let is_first = pass == 0 && first == 0 && part == 0;
+                    let is_end_of_pass = end == pass_rows.end && part + parts_at_once >= parts;
+                    let is_end_of_rows = is_end_of_pass && pass + 1 == passes;
+                    let stamps = [is_first, is_end_of_rows && rows.end == height];
+                    let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
+                    self.submit(pass, groups, stamps, |picture, encoder| {
+                        if is_end_of_rows {
+                            picture.copy_back(encoder, rows.start - around.start, rows.len());
+                        } else if is_end_of_pass {
+                            picture.keep_first(encoder);
+                        }
+                    })?;
                 }
-                take(first * width + i, pixel);
+                if let Some(progress) = progress {
+                    self.gpu.wait()?;
+                    progress((pass as f64 + end as f64 / height as f64) / passes as f64);
+                }
             }
-            progress(end as f64 / height as f64);
         }
         Ok(())
+    }
+
+    /// Submits one dispatch of the drawing pass, or of the refinement, and the copies that follow it. `stamps`: whether the
+    /// frame begins with it, and whether it ends.
+    fn submit(
+        &self,
+        pass: usize,
+        groups: [u32; 2],
+        [begins, ends]: [bool; 2],
+        then: impl FnOnce(&PictureBuffers, &mut wgpu::CommandEncoder),
+    ) -> Result<(), GpuError> {
+        let (gpu, picture) = (self.gpu, &self.picture);
+        let (pipeline, group) = match (&self.refinement, &picture.refined) {
+            (Some(refinement), Some(refined)) if pass > 0 => (&refinement.pipeline, refined),
+            _ => (&self.draw.pipeline, &picture.drawn),
+        };
+        gpu.attempt("the picture", || {
+            gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let timestamp_writes = self.clock.as_ref().and_then(|clock| clock.stamps(begins, ends));
+                let mut run =
+                    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+                run.set_pipeline(pipeline);
+                run.set_bind_group(0, group, &[]);
+                run.set_bind_group(1, &self.data, &[]);
+                run.dispatch_workgroups(groups[0], groups[1], 1);
+            }
+            then(picture, &mut encoder);
+            if let (true, Some(clock)) = (ends, &self.clock) {
+                clock.resolve(&mut encoder);
+            }
+            gpu.queue.submit([encoder.finish()]);
+        })
     }
 }
 
@@ -296,18 +324,18 @@ impl Pass {
 
 /// The layout of group 1: the data of the scene's effects.
 fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
-    let entry = |(binding, _, data): &(u32, &'static str, Data)| match data {
-        Data::Numbers | Data::Voxels | Data::Smoothed => wgpu::BindGroupLayoutEntry {
-            binding: *binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    let filters = shader.data.iter().any(|(_, _, data)| *data == Data::Sampler);
+    let entry = |(binding, _, data): &(u32, &'static str, Data)| {
+        let ty = match data {
+            Data::Numbers | Data::Voxels | Data::Smoothed => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: filters },
                 view_dimension: wgpu::TextureViewDimension::D3,
                 multisampled: false,
             },
-            count: None,
-        },
-        Data::Reals(_) | Data::Words(_) | Data::Texels(_) => list_entry(*binding, true),
+            Data::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
+            Data::Reals(_) | Data::Words(_) | Data::Texels(_) => return list_entry(*binding, true),
+        };
+        wgpu::BindGroupLayoutEntry { binding: *binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None }
     };
     let entries: Vec<_> = shader.data.iter().map(entry).collect();
     let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("data"), entries: &entries };
@@ -324,6 +352,7 @@ fn bind_data(
 ) -> Result<wgpu::BindGroup, GpuError> {
     enum Resource<'v> {
         Texture(&'v wgpu::TextureView),
+        Sampler(wgpu::Sampler),
         List(wgpu::Buffer),
     }
     let mut resources = Vec::new();
@@ -333,6 +362,12 @@ fn bind_data(
             Data::Numbers => Resource::Texture(&volume.numbers),
             Data::Voxels => Resource::Texture(volume.voxels.as_ref().unwrap_or(&volume.numbers)),
             Data::Smoothed => Resource::Texture(volume.smoothed.as_ref().unwrap_or(&volume.numbers)),
+            Data::Sampler => Resource::Sampler(gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some(what),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            })),
             Data::Reals(values) => list(&precision.bytes(values))?,
             Data::Words(words) => list(bytemuck::cast_slice(words))?,
             Data::Texels(texels) => list(bytemuck::cast_slice(texels))?,
@@ -343,6 +378,7 @@ fn bind_data(
     for (binding, resource) in &resources {
         let resource = match resource {
             Resource::Texture(view) => wgpu::BindingResource::TextureView(view),
+            Resource::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
             Resource::List(buffer) => buffer.as_entire_binding(),
         };
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource });

@@ -1,7 +1,7 @@
 //! A shader put together from modules.
 
-use crate::Precision;
 use crate::block::Block;
+use crate::{Interpolation, Precision};
 use std::fmt::Write;
 
 /// A WGSL file.
@@ -29,6 +29,8 @@ pub(crate) enum Data {
     Voxels,
     /// The smoothed coefficients of the volume.
     Smoothed,
+    /// The texture unit's interpolation.
+    Sampler,
     /// Numbers.
     Reals(Vec<f64>),
     /// Whole numbers or bits.
@@ -78,14 +80,24 @@ pub(crate) struct Stages {
     pub(crate) collect: Vec<&'static str>,
     /// When a ray has ended.
     pub(crate) end_ray: Vec<&'static str>,
-    /// Expressions for the channels of a pixel, in their order; `mean` is the beauty.
-    pub(crate) channels: Vec<String>,
+    /// Expressions for the channels of a pixel, in their order; `mean` is the beauty. Those of one ray stay when the pixel is
+    /// refined.
+    pub(crate) channels: Vec<Channel>,
+}
+
+/// A channel of a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Channel {
+    pub(crate) expression: String,
+    /// Whether it is of one ray, and no mean.
+    pub(crate) is_of_one_ray: bool,
 }
 
 /// A shader and what it reads.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shader {
     pub(crate) modules: Vec<Module>,
+    pub(crate) interpolation: Interpolation,
     pub(crate) block: Block,
     pub(crate) constants: Vec<(&'static str, Constant)>,
     /// Bindings of group 1.
@@ -188,8 +200,11 @@ impl Stages {
         let lines = calls(&self.collect, &|s| format!("{s}(ray, sample, a, alpha);"));
         function("collect(ray: Ray, sample: Sample, a: Attributes, alpha: real)", &lines, None);
         function("end_ray(part: i32)", &calls(&self.end_ray, &|s| format!("{s}(part);")), None);
-        let lines: Vec<String> =
-            self.channels.iter().enumerate().map(|(i, c)| format!("picture[out + {i}] = {c};")).collect();
+        let write = |(i, channel): (usize, &Channel)| {
+            let line = format!("picture[out + {i}] = {};", channel.expression);
+            if channel.is_of_one_ray { format!("if (!is_refined) {{ {line} }}") } else { line }
+        };
+        let lines: Vec<String> = self.channels.iter().enumerate().map(write).collect();
         function("write_channels(out: i32, mean: vec4<real>)", &lines, None);
         text
     }

@@ -56,13 +56,15 @@ enum Backend {
     Reference,
     /// Graphics card, in f32; needs a build with --features gpu
     Gpu,
+    /// Graphics card whose texture unit interpolates between voxels, with weights of 8 bits
+    GpuFast,
 }
 
 impl RenderArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let gpu = match self.backend {
             Backend::Reference => None,
-            Backend::Gpu => Some(graphics::open(talk)?),
+            Backend::Gpu | Backend::GpuFast => Some(graphics::open(talk, self.backend == Backend::GpuFast)?),
         };
         let target = RenderOutput::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
         let mut over = SceneOverrides::new(&self.set, self.flags()?)?;

@@ -30,7 +30,7 @@ pub(super) struct ValidateArgs {
 
 impl ValidateArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let gpu = graphics::open(talk)?;
+        let gpu = graphics::open(talk, false)?;
         #[cfg(feature = "gpu")]
         return self.compare(&gpu, talk);
         #[cfg(not(feature = "gpu"))]

@@ -13,6 +13,7 @@ mod sabotage_of_the_field;
 mod styles;
 mod two_quantities;
 mod validation;
+mod viewer;
 
 use drypoint::gpu::{Gpu, GpuError};
 

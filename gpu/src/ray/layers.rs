@@ -3,7 +3,7 @@
 use crate::GpuError;
 use crate::field::Scales;
 use crate::ray::EYE_NORMAL;
-use crate::shader::{Shader, module};
+use crate::shader::{Channel, Shader, module};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
 
@@ -18,33 +18,35 @@ pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuEr
         shader.stages.collect.push("collect_layers");
         shader.stages.end_ray.push("pool_sums");
     }
-    let mean = |name: &str| ["x", "y", "z"].map(|axis| format!("mean_of(pixel_sums.{name}.{axis})"));
-    let first = |name: &str| ["x", "y", "z"].map(|axis| format!("pixel_sums.first.{name}.{axis}"));
     for &layer in layers {
-        let channels = &mut shader.stages.channels;
-        match layer {
-            LayerKind::Beauty => channels.extend(["mean.r", "mean.g", "mean.b", "mean.a"].map(str::to_owned)),
-            LayerKind::Z => channels.push("pixel_sums.half".to_owned()),
-            LayerKind::Depth => {
-                channels.extend(["first.depth", "half", "depth"].map(|name| format!("pixel_sums.{name}")));
-            }
-            LayerKind::Normal => channels.extend(mean("normal")),
-            LayerKind::Gradient => channels.extend(mean("gradient")),
-            LayerKind::Curvature => channels.extend(mean("curvature")),
-            LayerKind::CurvatureAlongView => channels.push("mean_of(pixel_sums.curvature.z)".to_owned()),
-            LayerKind::First => channels.push("pixel_sums.first.value".to_owned()),
-            LayerKind::FirstNormal => channels.extend(first("normal")),
-            LayerKind::FirstCurvature => channels.extend(first("curvature")),
-            LayerKind::FirstCurvatureAlongView => channels.push("pixel_sums.first.curvature.z".to_owned()),
-            LayerKind::Counts => {
-                return Err(GpuError::Missing { what: "counts of samples", key: "picture.layers" });
-            }
-            LayerKind::Halo(_) => {
-                return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" });
-            }
-        }
+        let expressions = expressions(layer)?;
+        let is_of_one_ray = !(layer == LayerKind::Beauty || layer.is_mean());
+        let channel = |expression| Channel { expression, is_of_one_ray };
+        shader.stages.channels.extend(expressions.into_iter().map(channel));
     }
     Ok(())
+}
+
+/// Expressions for the channels of a layer.
+fn expressions(layer: LayerKind) -> Result<Vec<String>, GpuError> {
+    let mean = |name: &str| ["x", "y", "z"].map(|axis| format!("mean_of(pixel_sums.{name}.{axis})")).to_vec();
+    let first = |name: &str| ["x", "y", "z"].map(|axis| format!("pixel_sums.first.{name}.{axis}")).to_vec();
+    let one = |expression: &str| vec![expression.to_owned()];
+    Ok(match layer {
+        LayerKind::Beauty => ["mean.r", "mean.g", "mean.b", "mean.a"].map(str::to_owned).to_vec(),
+        LayerKind::Z => one("pixel_sums.half"),
+        LayerKind::Depth => ["first.depth", "half", "depth"].map(|name| format!("pixel_sums.{name}")).to_vec(),
+        LayerKind::Normal => mean("normal"),
+        LayerKind::Gradient => mean("gradient"),
+        LayerKind::Curvature => mean("curvature"),
+        LayerKind::CurvatureAlongView => one("mean_of(pixel_sums.curvature.z)"),
+        LayerKind::First => one("pixel_sums.first.value"),
+        LayerKind::FirstNormal => first("normal"),
+        LayerKind::FirstCurvature => first("curvature"),
+        LayerKind::FirstCurvatureAlongView => one("pixel_sums.first.curvature.z"),
+        LayerKind::Counts => return Err(GpuError::Missing { what: "counts of samples", key: "picture.layers" }),
+        LayerKind::Halo(_) => return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" }),
+    })
 }
 
 /// A number of a layer in the units of the picture, of one in those of the shader.

@@ -1,6 +1,7 @@
 //! Rays: their samples, what they show, and how pixels are made of them.
 
 pub(crate) mod layers;
+pub(crate) mod present;
 
 use crate::block::Block;
 use crate::field::Scales;
@@ -170,6 +171,7 @@ pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<
     }
     shader.block.number("first_part", 0.0);
     shader.block.number("end_part", 0.0);
+    shader.block.number("top_row", 0.0);
     shader.block.number("first_row", 0.0);
     shader.block.number("end_row", 0.0);
     let color = match background {

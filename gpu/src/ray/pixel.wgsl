@@ -1,6 +1,10 @@
 // The mean of a pixel over its rays ([RAY-6]), over the background ([IO-6]).
 
+// Its rows begin at params.top_row.
 @group(0) @binding(1) var<storage, read_write> picture: array<real>;
+
+// Whether the pixel is drawn once more: layers of one ray stay as they are.
+var<private> is_refined: bool;
 
 // The centre of a part of a pixel, in pixels from the middle of the picture, to the right and up.
 fn point_of(pixel: vec2<i32>, part: i32, across: i32) -> vec2<real> {
@@ -9,9 +13,14 @@ fn point_of(pixel: vec2<i32>, part: i32, across: i32) -> vec2<real> {
     return vec2<real>(x, -y);
 }
 
+// The place of a pixel's numbers.
+fn place_of(pixel: vec2<i32>) -> i32 {
+    return ((pixel.y - i32(params.top_row)) * WIDTH + pixel.x) * CHANNELS;
+}
+
 // The rays of a pixel, n side by side.
 fn draw_pixel(pixel: vec2<i32>, n: i32) {
-    let out = ((pixel.y - i32(params.first_row)) * WIDTH + pixel.x) * CHANNELS;
+    let out = place_of(pixel);
     let behind = background_at(pixel.y * WIDTH + pixel.x);
     is_unfinished = false;
     // A beauty alone is drawn part by part: drivers end shaders that run long. What came before stands in the picture.

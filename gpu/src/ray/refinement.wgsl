@@ -1,11 +1,11 @@
 // Adaptive antialiasing ([RAY-7]): 3 x 3 rays where the picture of one ray a pixel has edges.
 
-// The beauty of the first picture, from the row above the first one that is drawn to the row below the last.
+// The first picture: the beauty leads the numbers of each pixel.
 @group(0) @binding(2) var<storage, read> first_picture: array<real>;
 
 // A channel of the pixel as it is displayed.
 fn displayed(pixel: vec2<i32>) -> vec4<real> {
-    let at = 4 * ((pixel.y - i32(params.first_row) + 1) * WIDTH + pixel.x);
+    let at = place_of(pixel);
     let r = linear_to_srgb(clamp_01(first_picture[at]));
     let g = linear_to_srgb(clamp_01(first_picture[at + 1]));
     let b = linear_to_srgb(clamp_01(first_picture[at + 2]));
@@ -26,16 +26,20 @@ fn is_at_edge(pixel: vec2<i32>) -> bool {
     return false;
 }
 
-// Draws a pixel at an edge anew. Of another one the first channel says that it stays.
+// Draws a pixel at an edge anew.
 @compute @workgroup_size(8, 8)
 fn refine(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy) + vec2(0, i32(params.first_row));
     if (pixel.x >= WIDTH || pixel.y >= i32(params.end_row)) {
         return;
     }
-    if (is_at_edge(pixel)) {
-        draw_pixel(pixel, 3);
-    } else {
-        picture[((pixel.y - i32(params.first_row)) * WIDTH + pixel.x) * CHANNELS] = -1.0e30;
+    if (!is_at_edge(pixel)) {
+        return;
+    }
+    is_refined = true;
+    draw_pixel(pixel, 3);
+    let at = place_of(pixel);
+    if (first_picture[at] <= UNFINISHED) {
+        picture[at] = UNFINISHED;
     }
 }

@@ -1,6 +1,7 @@
 //! Gradients and normals ([REC-2], [NORM-1]).
 
 use super::{Scales, kernel};
+use crate::Interpolation;
 use crate::shader::{Constant, Data, Shader, module};
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Object, Outside};
@@ -40,7 +41,13 @@ pub(crate) fn add(shader: &mut Shader, object: &Object, measured: &Measured, sca
 /// Adds central differences of the voxels.
 pub(super) fn add_central(shader: &mut Shader, measured: &Measured) {
     add_voxels(shader, measured);
-    shader.add(&[module!("central")]);
+    match shader.interpolation {
+        Interpolation::Exact => shader.add(&[module!("central")]),
+        Interpolation::Fast => {
+            kernel::add_filter(shader);
+            shader.add(&[module!("central_filtered")]);
+        }
+    }
 }
 
 /// Adds the voxels, once.

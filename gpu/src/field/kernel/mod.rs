@@ -1,5 +1,6 @@
 //! The kernels of values ([REC-1]).
 
+use crate::Interpolation;
 use crate::number::NUMBER;
 use crate::shader::{Constant, Data, Module, Shader, module};
 use drypoint_scene::glam::DVec3;
@@ -21,6 +22,10 @@ pub(crate) fn add(shader: &mut Shader, kernel: Kernel, measured: &Measured, grid
     shader.block.vector("last_cell", DVec3::from_array(dims.map(|n| (n.max(2) - 2) as f64)));
     shader.block.vector("long_axes", DVec3::from_array(dims.map(|n| if n == 1 { 0.0 } else { 1.0 })));
     let separable = match kernel {
+        Kernel::Trilinear if shader.interpolation == Interpolation::Fast => {
+            add_filter(shader);
+            return shader.add(&[module!("trilinear_filtered")]);
+        }
         Kernel::Trilinear => return shader.add(&[module!("trilinear")]),
         Kernel::Bspline | Kernel::BsplineSmooth => [TENSOR, BSPLINE, module!("bspline_kernel")].as_slice(),
         Kernel::Bspline5 => &[TENSOR, module!("bspline5")],
@@ -28,4 +33,13 @@ pub(crate) fn add(shader: &mut Shader, kernel: Kernel, measured: &Measured, grid
     };
     shader.add(separable);
     shader.add(&[module!("separable")]);
+}
+
+/// Adds the texture unit's interpolation, once.
+pub(super) fn add_filter(shader: &mut Shader) {
+    const FILTERED: Module = module!("filtered");
+    if !shader.modules.contains(&FILTERED) {
+        shader.add(&[FILTERED]);
+        shader.bind(8, "the interpolation", Data::Sampler);
+    }
 }

@@ -1,0 +1,6 @@
+// Trilinear interpolation, the papers' kernel, by the texture unit ([REC-1]).
+
+// The value at a place.
+fn value_at(at: Place) -> real {
+    return between_voxels(numbers, position_of(at), NUMBERS_PAD);
+}

@@ -1,0 +1,86 @@
+//! The buffers of a picture that is being drawn.
+
+use crate::buffers::entry;
+use crate::{Gpu, GpuError};
+use std::ops::Range;
+
+/// Buffers for rows of a picture, kept from frame to frame.
+pub(crate) struct PictureBuffers {
+    /// The most rows that are finished together.
+    pub(crate) rows: usize,
+    /// Bytes of a row of pixels with all their channels.
+    pub(crate) bytes_a_row: u64,
+    /// The numbers of the rows.
+    pub(crate) out: wgpu::Buffer,
+    /// Numbers on their way to the host.
+    pub(crate) back: wgpu::Buffer,
+    /// The numbers before pixels are refined; none: no pixel is.
+    before: Option<wgpu::Buffer>,
+    /// Group 0 of the drawing pass.
+    pub(crate) drawn: wgpu::BindGroup,
+    /// Group 0 of the refinement.
+    pub(crate) refined: Option<wgpu::BindGroup>,
+}
+
+impl PictureBuffers {
+    /// Buffers for as many of a picture's `height` rows as a shader can write, with the layouts of group 0 of both passes.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        params: &wgpu::Buffer,
+        draw: &wgpu::BindGroupLayout,
+        refine: Option<&wgpu::BindGroupLayout>,
+        bytes_a_row: u64,
+        height: usize,
+    ) -> Result<Self, GpuError> {
+        // Of rows that are refined one more is drawn on either side.
+        let around = if refine.is_some() { 2 } else { 0 };
+        let most = gpu.device.limits().max_storage_buffer_binding_size;
+        let fit = usize::try_from(most / bytes_a_row.max(1)).unwrap_or(usize::MAX);
+        let rows = if fit < height { fit.saturating_sub(around).max(1) } else { height };
+        let bytes = bytes_a_row * (rows + around).min(height) as u64;
+        let new = |usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("picture"),
+                size: bytes,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let storage = wgpu::BufferUsages::STORAGE;
+        let (out, back, before) = gpu.attempt("the picture", || {
+            let out = new(storage | wgpu::BufferUsages::COPY_SRC);
+            let back = new(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
+            (out, back, refine.map(|_| new(storage | wgpu::BufferUsages::COPY_DST)))
+        })?;
+        let group = |layout: &wgpu::BindGroupLayout, further: Option<&wgpu::Buffer>| {
+            let mut entries = vec![entry(0, params), entry(1, &out)];
+            entries.extend(further.map(|buffer| entry(2, buffer)));
+            let descriptor = wgpu::BindGroupDescriptor { label: Some("picture"), layout, entries: &entries };
+            gpu.attempt("the picture", || gpu.device.create_bind_group(&descriptor))
+        };
+        let drawn = group(draw, None)?;
+        let refined = refine.map(|layout| group(layout, before.as_ref())).transpose()?;
+        Ok(Self { rows, bytes_a_row, out, back, before, drawn, refined })
+    }
+
+    /// The rows that are drawn for rows that are finished.
+    pub(crate) fn rows_around(&self, rows: &Range<usize>, height: usize) -> Range<usize> {
+        match self.before {
+            Some(_) => rows.start.saturating_sub(1)..(rows.end + 1).min(height),
+            None => rows.clone(),
+        }
+    }
+
+    /// Keeps the drawn numbers for the refinement.
+    pub(crate) fn keep_first(&self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(before) = &self.before {
+            encoder.copy_buffer_to_buffer(&self.out, 0, before, 0, self.out.size());
+        }
+    }
+
+    /// Copies finished rows, the first of them `skipped` rows from the top.
+    pub(crate) fn copy_back(&self, encoder: &mut wgpu::CommandEncoder, skipped: usize, rows: usize) {
+        let [offset, bytes] = [skipped, rows].map(|rows| self.bytes_a_row * rows as u64);
+        encoder.copy_buffer_to_buffer(&self.out, offset, &self.back, 0, bytes);
+    }
+}

@@ -1,0 +1,79 @@
+//! The finished picture in a viewer's texture.
+
+use crate::buffers::{entry, list_entry, pipeline};
+use crate::number::{DOUBLE, SINGLE};
+use crate::shader::{Module, module};
+use crate::{Gpu, GpuError, Precision};
+use drypoint_scene::picture::LayerKind;
+
+const PRESENT: Module = module!("present");
+
+/// Pixels along the side of a workgroup.
+const GROUP: u32 = 8;
+
+/// The pass that writes a picture's beauty into a texture.
+pub(crate) struct Presentation {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+    size: [usize; 2],
+}
+
+impl Presentation {
+    /// Prepares the pass for pictures of a size and with layers.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        precision: Precision,
+        [width, height]: [usize; 2],
+        layers: &[LayerKind],
+    ) -> Result<Self, GpuError> {
+        let missing = GpuError::Missing { what: "a picture without a beauty in a viewer", key: "picture.layers" };
+        let beauty = layers.iter().position(|&layer| layer == LayerKind::Beauty).ok_or(missing)?;
+        let channels = |layers: &[LayerKind]| layers.iter().map(|layer| layer.channels().len()).sum::<usize>();
+        let (channels, first) = (channels(layers), channels(&layers[..beauty]));
+        let number = match precision {
+            Precision::Single => SINGLE,
+            Precision::Double => DOUBLE,
+        };
+        let text = format!(
+            "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\nconst CHANNELS = {channels};\n\
+             const BEAUTY = {first};\n{}",
+            number.text, PRESENT.text
+        );
+        let target = wgpu::BindGroupLayoutEntry {
+            binding: 1,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::StorageTexture {
+                access: wgpu::StorageTextureAccess::WriteOnly,
+                format: wgpu::TextureFormat::Rgba16Float,
+                view_dimension: wgpu::TextureViewDimension::D2,
+            },
+            count: None,
+        };
+        let entries = [list_entry(0, true), target];
+        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("present"), entries: &entries };
+        let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
+        let pipeline = pipeline(gpu, text, "present", &[&layout])?;
+        Ok(Self { pipeline, layout, size: [width, height] })
+    }
+
+    /// Writes the numbers of a picture into a texture.
+    pub(crate) fn run(&self, gpu: &Gpu, picture: &wgpu::Buffer, target: &wgpu::TextureView) -> Result<(), GpuError> {
+        gpu.attempt("the picture", || {
+            let target = wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(target) };
+            let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("present"),
+                layout: &self.layout,
+                entries: &[entry(0, picture), target],
+            });
+            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                run.set_pipeline(&self.pipeline);
+                run.set_bind_group(0, &group, &[]);
+                let [x, y] = self.size.map(|n| (n as u32).div_ceil(GROUP));
+                run.dispatch_workgroups(x, y, 1);
+            }
+            gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}
