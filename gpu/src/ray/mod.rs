@@ -1,5 +1,6 @@
 //! Rays: their samples, what they show, and how pixels are made of them.
 
+mod brick_distances;
 pub(crate) mod layers;
 pub(crate) mod present;
 
@@ -144,17 +145,17 @@ pub(crate) fn rounding(scales: &Scales, precision: Precision) -> f64 {
 pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
     let [object] = &shot.objects;
     let slack = rounding(scales, precision);
-    let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
-    for (i, &[lo, hi]) in bricks.ranges.iter().enumerate() {
-        if object.function.can_be_visible([lo - slack, hi + slack], None, |at| at) {
-            words[i / 32] |= 1 << (i % 32);
-        }
+    let can_show = |&[lo, hi]: &[f64; 2]| object.function.can_be_visible([lo - slack, hi + slack], None, |at| at);
+    let visible: Vec<bool> = bricks.ranges.iter().map(can_show).collect();
+    let mut words = vec![0u32; visible.len().div_ceil(4)];
+    for (i, far) in brick_distances::distances(&visible, bricks.dims).into_iter().enumerate() {
+        words[i / 4] |= u32::from(far) << (8 * (i % 4));
     }
     shader.add(&[module!("bricks")]);
     shader.constant("BRICKS_X", Constant::Int(bricks.dims[0] as i64));
     shader.constant("BRICKS_Y", Constant::Int(bricks.dims[1] as i64));
     shader.constant("BRICK", Constant::Int(BRICK as i64));
-    shader.bind(5, "the visible bricks", Data::Words(words));
+    shader.bind(5, "the distances of bricks", Data::Words(words));
     shader.stages.next_plane.push("skip_brick");
 }
 

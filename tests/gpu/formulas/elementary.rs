@@ -39,7 +39,8 @@ fn exponentials() {
     let truth = |&[y]: &[f64; 1]| [-y.exp_m1(), y.exp()];
     let found = errors(&gpu, &kernel, &table, truth, |_, t, i| t[i].abs().max(1e-37));
     println!("1 − e^y, e^y: {found:?}");
-    assert!(found[0] <= 4.0 * ULP[0] && found[1] <= 4.0 * ULP[1], "{found:?}");
+    // A compiler may take both parts of ln 2 as one number of f64, which is off by up to 2⁻⁵⁴: n ≤ 122 times, 31 last places.
+    assert!(found[0] <= 35.0 * ULP[0] && found[1] <= 4.0 * ULP[1], "{found:?}");
 }
 
 /// x^y = e^(y ln x): the error of the product is |y ln x| last places of the result.
