@@ -4,8 +4,10 @@
 //!
 //! `cargo bench --bench graphics --features gpu`
 
+use drypoint::cost::median;
 use drypoint::gpu::{Gpu, GpuFrames, Interpolation};
 use drypoint::job::Job;
+use drypoint::reference::ray::Renderer;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::phantom;
 use drypoint::scene::tables::VolumeSource;
@@ -13,8 +15,9 @@ use drypoint::scene::volume::Volume;
 use std::path::Path;
 use std::time::Instant;
 
-/// Frames of each kind, after one that warms up.
+/// Rounds that are counted, and those before them.
 const ROUNDS: usize = 15;
+const WARM: usize = 3;
 
 /// The phantom of the embedded scene.
 const SCENE: &str = r##"
@@ -74,42 +77,56 @@ const SCENES: [(&str, &[&str]); 7] = [
 fn main() -> Result<(), String> {
     let gpu = Gpu::new().map_err(|error| error.to_string())?;
     let fast = gpu.interpolating(Interpolation::Fast);
-    println!("{}, medians of {ROUNDS} frames\n", gpu.describe());
+    let cards: Vec<&Gpu> = [Some(&gpu), fast.as_ref().ok()].into_iter().flatten().collect();
+    let mut volume = None;
+    let jobs = SCENES.iter().map(|(_, parts)| job(parts, &mut volume)).collect::<Result<Vec<_>, _>>()?;
+    let mut kinds = Vec::new();
+    for job in &jobs {
+        let frames = cards.iter().map(|gpu| GpuFrames::new(job, gpu)).collect::<Result<Vec<_>, _>>();
+        let reference = job.renderer().map_err(|failure| failure.to_string())?;
+        kinds.push(Kind { frames: frames.map_err(|failure| failure.to_string())?, reference, rounds: Vec::new() });
+    }
+    // All kinds take turns. The first rounds warm up.
+    for _ in 0..WARM + ROUNDS {
+        kinds.iter_mut().try_for_each(Kind::take_turn)?;
+    }
+    println!("{}, medians of {ROUNDS} rounds\n", gpu.describe());
     println!(
         "| | reference, ms | rays, ms | shown, ms | as a picture, ms | to Phong | fast: rays, ms | shown, ms | to Phong |"
     );
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
-    let mut volume = None;
-    let mut phong = [f64::NAN; 2];
-    // Phong comes first, to compare with, and its own row where it belongs.
-    let of_phong = SCENES.iter().filter(|(name, _)| *name == PHONG);
-    for (at, (name, parts)) in of_phong.chain(&SCENES).enumerate() {
-        let job = job(parts, &mut volume)?;
-        let exact = Times::of(&job, &gpu)?;
-        let fast = fast.as_ref().ok().map(|gpu| Times::of(&job, gpu)).transpose()?;
-        if at == 0 {
-            phong = [exact.rays, fast.map_or(f64::NAN, |fast| fast.rays)];
-            continue;
+    let phong = SCENES.iter().position(|(name, _)| *name == PHONG).ok_or("no Phong")?;
+    for ((name, _), kind) in SCENES.iter().zip(&kinds) {
+        print!("| {name} | {:.0}", 1e3 * kind.median(|round| round.reference));
+        for card in 0..kind.frames.len() {
+            print!(" | {:.2}", 1e3 * kind.median(|round| round.cards[card].rays));
+            print!(" | {:.2}", 1e3 * kind.median(|round| round.cards[card].shown));
+            if card == 0 {
+                print!(" | {:.1}", 1e3 * kind.median(|round| round.cards[card].picture));
+            }
+            let rays = |kind: &Kind| kind.rounds[WARM..].iter().map(|round| round.cards[card].rays).collect::<Vec<_>>();
+            let ratios: Vec<f64> = rays(kind).iter().zip(rays(&kinds[phong])).map(|(own, phong)| own / phong).collect();
+            print!(" | {:.2}", median(&ratios));
         }
-        let reference = job.renderer().map_err(|failure| failure.to_string())?;
-        let reference = median(|| Ok(timed(|| Ok(reference.frame(&|_| ())))?.1))?;
-        let fast = fast.map_or("| | | |".to_owned(), |fast| {
-            format!("| {:.2} | {:.2} | {:.2} |", fast.rays * 1e3, fast.shown * 1e3, fast.rays / phong[1])
-        });
-        println!(
-            "| {name} | {:.0} | {:.2} | {:.2} | {:.1} | {:.2} {fast}",
-            reference * 1e3,
-            exact.rays * 1e3,
-            exact.shown * 1e3,
-            exact.picture * 1e3,
-            exact.rays / phong[0],
-        );
+        println!(" |");
     }
     Ok(())
 }
 
-/// Median seconds of a frame.
-#[derive(Clone, Copy)]
+/// A scene on the card, with each interpolation, and on the reference.
+struct Kind<'a> {
+    frames: Vec<GpuFrames<'a>>,
+    reference: Renderer<'a>,
+    rounds: Vec<Round>,
+}
+
+/// Seconds of a round.
+struct Round {
+    reference: f64,
+    cards: Vec<Times>,
+}
+
+/// Seconds of a frame on the card.
 struct Times {
     /// Of its rays, by the card's clock; by the host's where the card has none.
     rays: f64,
@@ -119,18 +136,21 @@ struct Times {
     picture: f64,
 }
 
-impl Times {
-    fn of(job: &Job, gpu: &Gpu) -> Result<Self, String> {
-        let mut frames = GpuFrames::new(job, gpu).map_err(|failure| failure.to_string())?;
-        let mut rays = Vec::new();
-        let shown = median(|| {
+impl Kind<'_> {
+    fn take_turn(&mut self) -> Result<(), String> {
+        let reference = timed(|| Ok(self.reference.frame(&|_| ())))?.1;
+        let mut cards = Vec::new();
+        for frames in &mut self.frames {
             let (on_card, shown) = timed(|| frames.show().map_err(|failure| failure.to_string()))?;
-            rays.push(on_card.unwrap_or(shown));
-            Ok(shown)
-        })?;
-        let picture = median(|| Ok(timed(|| frames.frame(&|_| ()).map_err(|failure| failure.to_string()))?.1))?;
-        let mut rest = rays.into_iter();
-        Ok(Self { rays: median(|| rest.next().ok_or_else(String::new))?, shown, picture })
+            let picture = timed(|| frames.frame(&|_| ()).map_err(|failure| failure.to_string()))?.1;
+            cards.push(Times { rays: on_card.unwrap_or(shown), shown, picture });
+        }
+        self.rounds.push(Round { reference, cards });
+        Ok(())
+    }
+
+    fn median(&self, seconds: impl Fn(&Round) -> f64) -> f64 {
+        median(&self.rounds[WARM..].iter().map(seconds).collect::<Vec<_>>())
     }
 }
 
@@ -138,13 +158,6 @@ fn timed<T>(run: impl FnOnce() -> Result<T, String>) -> Result<(T, f64), String>
     let start = Instant::now();
     let made = run()?;
     Ok((made, start.elapsed().as_secs_f64()))
-}
-
-/// The median of [`ROUNDS`] times after one that warms up.
-fn median(mut time: impl FnMut() -> Result<f64, String>) -> Result<f64, String> {
-    time()?;
-    let times = (0..ROUNDS).map(|_| time()).collect::<Result<Vec<_>, _>>()?;
-    Ok(drypoint::cost::median(&times))
 }
 
 fn job(parts: &[&str], volume: &mut Option<Volume>) -> Result<Job, String> {

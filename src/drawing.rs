@@ -1,13 +1,12 @@
 //! Frames of a scene, and their files: the volume, points and lines over it, or either alone.
 
 mod frame_writer;
-mod volume_renderer;
 
 use crate::Failure;
-#[cfg(feature = "gpu")]
-use crate::gpu::{Gpu, GpuFrames};
+use crate::gpu::Gpu;
 use crate::job::{Job, RenderTarget, provenance};
 use crate::marking::{MarkFrames, Marking};
+use crate::volume_renderer::VolumeRenderer;
 use drypoint_output::paint::fragments;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
@@ -18,7 +17,6 @@ use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
 use frame_writer::FrameWriter;
 use std::path::Path;
-use volume_renderer::VolumeRenderer;
 
 /// A job made ready for any number of frames.
 pub struct Drawing<'a> {
@@ -56,29 +54,21 @@ impl<'a> Drawing<'a> {
     /// # Errors
     /// Same errors as [`Job::renderer`].
     pub fn new(job: &'a Job, marking: &'a Marking<'a>, counts: &mut Counts) -> Result<Self, Failure> {
-        let renderer = if job.draws_volume() { Some(job.renderer()?) } else { None };
-        if let Some(renderer) = &renderer {
-            counts.add(renderer.prepared());
-        }
-        Self::with(job, marking, renderer.map(|renderer| VolumeRenderer::Reference(Box::new(renderer))), counts)
+        Self::on(job, marking, None, counts)
     }
 
-    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card.
+    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card if there is one.
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`], and those of the adapter.
-    #[cfg(feature = "gpu")]
-    pub fn on_gpu(job: &'a Job, marking: &'a Marking<'a>, gpu: &'a Gpu, counts: &mut Counts) -> Result<Self, Failure> {
-        let frames = if job.draws_volume() { Some(Box::new(GpuFrames::new(job, gpu)?)) } else { None };
-        Self::with(job, marking, frames.map(VolumeRenderer::Gpu), counts)
-    }
-
-    fn with(
+    pub fn on(
         job: &'a Job,
         marking: &'a Marking<'a>,
-        renderer: Option<VolumeRenderer<'a>>,
+        card: Option<&'a Gpu>,
         counts: &mut Counts,
     ) -> Result<Self, Failure> {
+        let draws = job.draws_volume();
+        let renderer = draws.then(|| VolumeRenderer::new(job, None, card, counts)).transpose()?;
         let marks = marking.frames(counts);
         Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }

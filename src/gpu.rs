@@ -96,6 +96,7 @@ pub struct GpuFrames<'a> {
     shown: Option<wgpu::Texture>,
     samples: f64,
     rays_across: usize,
+    bytes: u64,
 }
 
 impl<'a> GpuFrames<'a> {
@@ -119,12 +120,25 @@ impl<'a> GpuFrames<'a> {
         let (job, shot, renderer) = (on_gpu.job, &on_gpu.shot, on_gpu.renderer()?);
         let rays = (shot.rays_across * shot.rays_across) as f64;
         let samples = samples_in(&shot.lattice, &shot.view, job.volume.grid()) * rays;
-        Ok(Self { job, gpu: on_gpu.gpu, renderer, shown: None, samples, rays_across: shot.rays_across })
+        Ok(Self {
+            job,
+            gpu: on_gpu.gpu,
+            renderer,
+            shown: None,
+            samples,
+            rays_across: shot.rays_across,
+            bytes: on_gpu.volume.bytes(),
+        })
     }
 
     /// Returns about how many samples a frame has without skipping.
     pub fn samples(&self) -> f64 {
         self.samples
+    }
+
+    /// Returns the bytes of the volume's numbers on the card.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
     }
 
     /// Returns n of the n×n rays of a pixel, before it is refined.

@@ -26,6 +26,9 @@ pub mod failure;
 pub mod format;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_gpu.rs"]
+pub mod gpu;
 pub mod halo;
 pub mod job;
 pub mod labels;
@@ -36,6 +39,7 @@ pub mod stroking;
 pub mod tone_plot;
 #[cfg(feature = "gpu")]
 pub mod validate;
+mod volume_renderer;
 pub mod wedge;
 
 pub use drypoint_output as output;

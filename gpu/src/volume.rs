@@ -10,6 +10,7 @@ pub struct Volume {
     pub(crate) voxels: Option<wgpu::TextureView>,
     pub(crate) smoothed: Option<wgpu::TextureView>,
     pub(crate) precision: Precision,
+    bytes: u64,
 }
 
 /// The power of two e with numbers · 2^−e in [−1, 1] ([GPU-1]).
@@ -27,13 +28,21 @@ impl Volume {
             return Err(GpuError::NoDouble { adapter: gpu.name().to_owned() });
         }
         let e = scale_exponent(measured);
+        let lists = [Some(&measured.numbers), measured.voxels.as_ref(), measured.smoothed.as_ref()];
+        let numbers = lists.into_iter().flatten().map(|numbers| numbers.data.len() as u64).sum::<u64>();
         let texture = |numbers: &PaddedNumbers| upload(gpu, numbers, e, precision);
         Ok(Self {
             numbers: texture(&measured.numbers)?,
             voxels: measured.voxels.as_ref().map(texture).transpose()?,
             smoothed: measured.smoothed.as_ref().map(texture).transpose()?,
             precision,
+            bytes: numbers * precision.size(),
         })
+    }
+
+    /// The bytes of its numbers on the card.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk, output_path};
+use super::{Done, Outcome, Talk, graphics, output_path};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
 use drypoint::Failure;
@@ -13,7 +13,8 @@ use std::path::PathBuf;
 ///
 /// A knob is a scene key that trades accuracy for time, such as the step, the kernel or early termination. Knobs are
 /// changed one at a time. The error compares the pictures in linear light. Its truth is the formula of a phantom, else the
-/// knob's finest setting. Knobs of stipples compare blurred pages of dots. Knobs of hatching compare strokes, as distances
+/// knob's finest setting. The knob `backend` is there with a graphics card, and for a software adapter if it is named.
+/// Knobs of stipples compare blurred pages of dots. Knobs of hatching compare strokes, as distances
 /// in voxels.
 #[derive(Debug, Args)]
 pub(super) struct CostArgs {
@@ -24,7 +25,7 @@ pub(super) struct CostArgs {
     /// [default: CSV on standard output]
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Measure only this knob, such as sampling.step; can be repeated
+    /// Measure only this knob, such as sampling.step or backend; can be repeated
     #[arg(long, value_name = "KEY")]
     knob: Vec<String>,
     /// Number of timed runs of each setting; the median is reported
@@ -51,10 +52,11 @@ impl CostArgs {
         };
         files.iter().try_for_each(|(path, _)| output_path::check_not_read(path, job.scene.files()))?;
         input::tell(talk, &job);
+        let cards = graphics::knob(talk, &self.knob)?;
         // The sweep, and one file for each output.
         let found = {
             let progress = Progress::new(talk, "measuring");
-            sweep(&job, &SweepOptions { runs: self.runs, only: self.knob }, &|share| progress.hear(share))?
+            sweep(&job, &SweepOptions { runs: self.runs, only: self.knob }, &cards, &|share| progress.hear(share))?
         };
         for (knob, setting, failure) in &found.left_out {
             note(talk, format_args!("warning: {knob} = {setting} is left out: {}", failure.what));

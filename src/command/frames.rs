@@ -1,12 +1,12 @@
 //! The files of a scene's frames, and the frames drawn into them.
 
 use super::empty::warn_of_nothing;
-use super::graphics::Gpu;
 use super::input::{self, SceneOverrides};
 use super::report::{Progress, note};
 use super::stats::{FrameTimes, cpu_seconds};
 use super::{Talk, output_path};
 use drypoint::drawing::{Drawing, room_for_page, write_animation};
+use drypoint::gpu::Gpu;
 use drypoint::job::Job;
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
@@ -171,13 +171,7 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
     let mut drawing = {
         let preparing = Progress::new(talk, "preparing");
         preparing.amount(|| format!("{:.1e} voxels", job.volume.grid().len() as f64));
-        match gpu {
-            None => Drawing::new(job, &marking, &mut counts)?,
-            #[cfg(feature = "gpu")]
-            Some(gpu) => Drawing::on_gpu(job, &marking, gpu, &mut counts)?,
-            #[cfg(not(feature = "gpu"))]
-            Some(gpu) => match *gpu {},
-        }
+        Drawing::on(job, &marking, gpu, &mut counts)?
     };
     let frames = drawing.frames();
     // Frames are drawn, timed and written one after another.

@@ -38,7 +38,7 @@ impl ValidateArgs {
     }
 
     #[cfg(feature = "gpu")]
-    fn compare(self, gpu: &graphics::Gpu, talk: Talk) -> Outcome {
+    fn compare(self, gpu: &drypoint::gpu::Gpu, talk: Talk) -> Outcome {
         use super::input::{self, SceneOverrides};
         use super::report::{note, print, print_json};
         use super::{Done, output_path};

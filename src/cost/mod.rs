@@ -26,7 +26,8 @@
 //!   nearest 95 %; the others end elsewhere, or part where lines of curvature meet, whatever the setting. Outlines are
 //!   compared as lists.
 //!
-//! **Time** ([COST-3]) of a picture is one frame of a prepared scene, as in `render --repeat`. Work done once
+//! **Time** ([COST-3]) of a picture is one frame of a prepared scene, as in `render --repeat`. A graphics card has it in a
+//! texture then, as a viewer does. Work done once
 //! (coefficients of a spline, the range of |g|) is not in the time but in the bytes. Time of dots and strokes is
 //! everything from the voxels to the page, since their knobs change work done once. After a warm-up all settings take
 //! turns, forwards and backwards, so that other load falls on each of them. The result is the median, and the distance
@@ -48,6 +49,7 @@ pub use statistics::median;
 pub use sweep_format::SweepFormat;
 pub use table::{csv, markdown};
 
+use crate::gpu::Gpu;
 use crate::job::{Job, KnobVariant};
 use crate::{Failure, Failures};
 use drypoint_output::read::Image;
@@ -60,6 +62,12 @@ use error::{SettingError, error};
 use statistics::quartiles;
 use std::fmt;
 use variant::{SettingOutput, TimedVariant, take_turn, together};
+
+/// The key of the knob that is the renderer of the volume.
+pub const BACKEND: &str = "backend";
+
+/// The finest setting of [`BACKEND`].
+const REFERENCE: &str = "reference";
 
 /// Settings of a sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -168,18 +176,28 @@ pub struct Sweep {
     pub size: [usize; 2],
 }
 
-/// Turns every knob of a job's scene. `progress` gets the finished share.
+/// Turns every knob of a job's scene. `cards` are graphics cards with their names, from coarse to fine: settings of the knob
+/// [`BACKEND`], whose finest is the reference. `progress` gets the finished share.
 ///
 /// # Errors
 /// A key in `only` that is no knob of the scene, or a truth that cannot be drawn.
-pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Result<Sweep, Failures> {
+pub fn sweep(
+    job: &Job,
+    options: &SweepOptions,
+    cards: &[(&'static str, Gpu)],
+    progress: &dyn Fn(f64),
+) -> Result<Sweep, Failures> {
     // Other layers are not part of the error and would add time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
     let plan = job.variant(base.clone()).plan;
-    let all = knobs(&base, &plan);
+    let mut all = knobs(&base, &plan);
+    if !cards.is_empty() && plan.has_pass(Pass::Rays) {
+        all.push(Knob { key: BACKEND.into(), settings: &[REFERENCE], limit: Limit::Finest });
+    }
     let turned = chosen(&all, &options.only, job)?;
-    if let Some((knob, own)) = all.iter().find_map(|knob| Some((knob, knob.of(&base)?))) {
+    let keys = || all.iter().filter(|knob| knob.key != BACKEND);
+    if let Some((knob, own)) = keys().find_map(|knob| Some((knob, knob.of(&base)?))) {
         // The base goes through the same text as all settings, so that equal scenes compare equal.
         base = knob.set(&base, &own)?;
     }
@@ -191,24 +209,33 @@ pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Resul
         VolumeSource::Phantom(_) | VolumeSource::File { .. } => None,
     };
     // Each distinct scene is drawn once, whichever settings lead to it. `settings` has the index of its scene.
-    let mut different: Vec<(ErrorSubject, KnobVariant)> = Vec::new();
+    let mut different: Vec<(ErrorSubject, KnobVariant, Option<&Gpu>)> = Vec::new();
     let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
     for knob in &turned {
         let subject = ErrorSubject::of(knob, &plan);
         let mut scenes = Vec::new();
-        for setting in knob.settings {
-            scenes.push(((*setting).to_owned(), knob.set(&base, setting)?));
+        if knob.key == BACKEND {
+            scenes.extend(cards.iter().map(|(name, gpu)| ((*name).to_owned(), base.clone(), Some(gpu))));
+            scenes.push((REFERENCE.to_owned(), base.clone(), None));
+        } else {
+            for setting in knob.settings {
+                scenes.push(((*setting).to_owned(), knob.set(&base, setting)?, None));
+            }
+            if scenes.iter().all(|(_, scene, _)| *scene != base)
+                && let Some(own) = knob.of(&base)
+            {
+                scenes.insert(0, (own, base.clone(), None));
+            }
         }
-        if scenes.iter().all(|(_, scene)| *scene != base)
-            && let Some(own) = knob.of(&base)
-        {
-            scenes.insert(0, (own, base.clone()));
-        }
-        for (setting, scene) in scenes {
-            let known = different.iter().position(|other| other.0 == subject && other.1.scene == scene);
+        for (setting, scene, card) in scenes {
+            let is_same = |other: &(ErrorSubject, KnobVariant, Option<&Gpu>)| {
+                let place = |card: Option<&Gpu>| card.map(std::ptr::from_ref);
+                other.0 == subject && place(other.2) == place(card) && other.1.scene == scene
+            };
+            let known = different.iter().position(is_same);
             let at = known.unwrap_or(different.len());
             if known.is_none() {
-                different.push((subject, job.variant(scene)));
+                different.push((subject, job.variant(scene), card));
             }
             settings.push((knob, setting, at));
         }
@@ -219,7 +246,7 @@ pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Resul
     let of_field = turned.iter().any(|knob| is_of_field(knob));
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
     let mut variants: Vec<TimedVariant> =
-        different.iter().map(|(subject, knobs)| TimedVariant::new(job, *subject, knobs)).collect();
+        different.iter().map(|(subject, knobs, card)| TimedVariant::new(job, *subject, knobs, *card)).collect();
     time(&mut variants, options.runs.max(1), progress)?;
 
     // Rows: each setting against its truth.
@@ -260,7 +287,7 @@ pub fn sweep(job: &Job, options: &SweepOptions, progress: &dyn Fn(f64)) -> Resul
             knob: knob.key.clone(),
             subject: variant.subject,
             setting: setting.clone(),
-            own: variant.knobs.scene == base,
+            own: variant.knobs.scene == base && variant.card.is_none(),
             rms,
             max,
             flip,

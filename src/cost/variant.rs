@@ -5,11 +5,12 @@ use super::statistics::median;
 use super::strokes::DrawnStrokes;
 use super::tone::tone;
 use crate::Failure;
+use crate::gpu::Gpu;
 use crate::job::{Job, KnobVariant};
 use crate::stippling::Stippling;
 use crate::stroking::Stroking;
+use crate::volume_renderer::VolumeRenderer;
 use drypoint_output::read::Image;
-use drypoint_reference::ray::Renderer;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, Page};
 use drypoint_scene::tables::{Even, Scene};
@@ -32,8 +33,12 @@ pub(super) struct TimedVariant<'a> {
     job: &'a Job,
     pub(super) subject: ErrorSubject,
     pub(super) knobs: &'a KnobVariant,
+    /// The graphics card that draws the volume; none: the reference.
+    pub(super) card: Option<&'a Gpu>,
     /// Renderer for the next turn, if it may be kept.
-    renderer: Option<Renderer<'a>>,
+    renderer: Option<VolumeRenderer<'a>>,
+    /// Whether it may be kept.
+    keeps: bool,
     /// Output and counts of the first turn, or its failure.
     pub(super) made: Option<Result<(SettingOutput, Counts), Failure>>,
     pub(super) seconds: Vec<f64>,
@@ -50,8 +55,8 @@ pub(super) enum SettingOutput {
 }
 
 impl<'a> TimedVariant<'a> {
-    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a KnobVariant) -> Self {
-        Self { job, subject, knobs, renderer: None, made: None, seconds: Vec::new() }
+    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a KnobVariant, card: Option<&'a Gpu>) -> Self {
+        Self { job, subject, knobs, card, renderer: None, keeps: false, made: None, seconds: Vec::new() }
     }
 
     /// Whether the variant takes no more turns.
@@ -75,22 +80,26 @@ impl<'a> TimedVariant<'a> {
 
     /// Times one frame of a picture. The first turn prepares and warms up. `kept` is the sum of kept bytes.
     fn take_picture(&mut self, kept: &mut u64) -> Result<(), Failure> {
-        let anew = match &self.renderer {
-            Some(_) => None,
-            None => Some(self.job.renderer_of(self.knobs)?),
+        let mut counts = Counts::default();
+        let mut renderer = match self.renderer.take() {
+            Some(renderer) => renderer,
+            None => VolumeRenderer::new(self.job, Some(self.knobs), self.card, &mut counts)?,
         };
-        let Some(ready) = anew.as_ref().or(self.renderer.as_ref()) else { return Ok(()) };
-        let start = Instant::now();
-        let (picture, counts) = ready.frame(&|_| ());
         if self.made.is_some() {
+            let start = Instant::now();
+            renderer.show()?;
             self.seconds.push(start.elapsed().as_secs_f64());
+            self.renderer = self.keeps.then_some(renderer);
             return Ok(());
         }
+        let (picture, own) = renderer.frame(&|_| ())?;
+        counts.add(&own);
         let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
         let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
         if *kept + own <= KEPT {
             *kept += own;
-            self.renderer = anew;
+            self.keeps = true;
+            self.renderer = Some(renderer);
         }
         self.made = Some(Ok((SettingOutput::Picture(Image::from(&picture)), counts)));
         Ok(())

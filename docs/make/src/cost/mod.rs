@@ -81,7 +81,7 @@ pub(crate) fn write() -> Result<(), String> {
     for scene in &SCENES {
         let Measured { name, .. } = scene;
         let table = if is_wanted(name) {
-            let found = sweep(&job(scene, &[])?, &SweepOptions { runs: RUNS, only: Vec::new() }, &|_| ());
+            let found = sweep(&job(scene, &[])?, &SweepOptions { runs: RUNS, only: Vec::new() }, &[], &|_| ());
             let found = found.map_err(|e| e.to_string())?;
             picture(&format!("{name}.png"), &SweepFormat::Png.of_sweep(&found, name)?)?;
             markdown(&found)

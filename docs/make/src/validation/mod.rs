@@ -18,7 +18,7 @@ const SIZE: [usize; 2] = [320, 240];
 /// # Errors
 /// No adapter, a scene that does not load, and a comparison that fails.
 pub(crate) fn write() -> Result<(), String> {
-    let gpu = drypoint::gpu::open().map_err(|failure| failure.to_string())?;
+    let gpu = drypoint::gpu::open(drypoint::gpu::Interpolation::Exact).map_err(|failure| failure.to_string())?;
     let mut found = Vec::new();
     for (name, more) in scenes::SCENES {
         let validation = of_scene(name, more, &gpu).map_err(|why| format!("{name}: {why}"))?;
