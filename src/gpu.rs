@@ -83,7 +83,12 @@ impl<'a> GpuJob<'a> {
     /// # Errors
     /// Same errors as [`GpuJob::renderer`].
     pub fn frame(&self, progress: &dyn Fn(f64)) -> Result<Picture, Failure> {
-        self.renderer()?.frame(progress).map_err(|error| failure(&error, self.job))
+        self.renderer()?.frame(progress).map_err(|error| self.failure(&error))
+    }
+
+    /// Returns an error of a renderer with the scene's key, if one is at fault.
+    pub fn failure(&self, error: &GpuError) -> Failure {
+        failure(error, self.job)
     }
 }
 

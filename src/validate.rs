@@ -3,6 +3,8 @@
 use crate::Failure;
 use crate::gpu::{Gpu, GpuJob, Precision};
 use crate::job::{Job, KnobVariant, render_failure};
+use drypoint_output::compare::{CompareOptions, compare};
+use drypoint_output::read::Image;
 use drypoint_reference::number::Decision;
 use drypoint_reference::ray::Renderer;
 use drypoint_reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
@@ -30,6 +32,10 @@ pub struct Validation {
     pub stages: Vec<Stage>,
     /// The first stage that parts in f64; none: none does, or the adapter has no f64.
     pub parts_at: Option<&'static str>,
+    /// The root mean square of the colours' difference in f32, over all pixels.
+    pub rms: f64,
+    /// The mean of FLIP of the colours in f32.
+    pub flip: f64,
     /// The colours in f32 against their bounds; none where no bound is known, with the reason in `unbounded`.
     pub bounded: Option<Bounded>,
     /// The reason why there are no bounds.
@@ -97,6 +103,7 @@ impl fmt::Display for Validation {
             None if self.stages.iter().all(|stage| stage.double.is_some()) => writeln!(f, "no stage parts in f64")?,
             None => {}
         }
+        writeln!(f, "colours in f32: RMS {:.1e}, mean of FLIP {:.1e}", self.rms, self.flip)?;
         if let Some(why) = &self.unbounded {
             return write!(f, "{why}");
         }
@@ -104,7 +111,7 @@ impl fmt::Display for Validation {
         let Bounded { bound, measured, share, exceeded, endless, undecided, measured_at_decisions, .. } = bounded;
         writeln!(
             f,
-            "colours in f32: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
+            "of pixels with a bound: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
         )?;
         writeln!(f, "pixels over their bound: {exceeded}")?;
         if *endless > 0.0 {
@@ -121,6 +128,14 @@ impl fmt::Display for Validation {
 /// # Errors
 /// Same errors as [`Job::renderer`], and those of the adapter.
 pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
+    validate_edited(job, gpu, &|text| text)
+}
+
+/// Compares a graphics card like [`validate`], with edited shaders in f32, for tests of whether the bounds notice a fault.
+///
+/// # Errors
+/// Same errors as [`validate`].
+pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
     let mut scene = job.scene.clone();
     if scene.picture.samples == RaysPerPixel::Auto {
         scene.picture.samples = RaysPerPixel::Across(1);
@@ -134,10 +149,10 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
     // Stages, in f64 where the card has it, and in f32.
     let (truth, _) = job.renderer_of(&layered)?.again(&|_| ());
     let double = match gpu.has_double() {
-        true => Some(drawn(job, gpu, &layered, Precision::Double)?),
+        true => Some(drawn(job, gpu, &layered, Precision::Double, &|text| text)?),
         false => None,
     };
-    let single = drawn(job, gpu, &layered, Precision::Single)?;
+    let single = drawn(job, gpu, &layered, Precision::Single, edit)?;
     let compared: Vec<Stage> = stages
         .iter()
         .map(|&(name, layer)| {
@@ -166,8 +181,13 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
         Ok(bounds) => (Some(against(&bounds, &single)), None),
         Err(why) => (None, Some(why)),
     };
-    let adapter = gpu.describe();
-    Ok(Validation { adapter, stages: compared, parts_at, bounded, unbounded, pictures: [truth, single] })
+    let pictures = [truth, single];
+    let [a, b] = pictures.each_ref().map(Image::from);
+    let whole = compare(&a, &b, &CompareOptions::default())
+        .map_err(|error| Failure::picture(&error, job.scene.given.position("picture")))?;
+    let rms = whole.layers.iter().find(|layer| layer.name == "beauty").map_or(f64::NAN, |layer| layer.rms);
+    let (adapter, flip) = (gpu.describe(), whole.flip.unwrap_or(f64::NAN));
+    Ok(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures })
 }
 
 /// The stages that a scene has, and their layers. First come those of the first visible sample of a ray, on which no
@@ -187,8 +207,15 @@ fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKi
 }
 
 /// A card's picture of a scene with other knobs.
-fn drawn(job: &Job, gpu: &Gpu, variant: &KnobVariant, precision: Precision) -> Result<Picture, Failure> {
-    GpuJob::of(job, gpu, variant, precision)?.frame(&|_| ())
+fn drawn(
+    job: &Job,
+    gpu: &Gpu,
+    variant: &KnobVariant,
+    precision: Precision,
+    edit: &dyn Fn(String) -> String,
+) -> Result<Picture, Failure> {
+    let drawn = GpuJob::of(job, gpu, variant, precision)?;
+    drawn.edited(edit)?.frame(&|_| ()).map_err(|error| drawn.failure(&error))
 }
 
 /// The reference's picture with its bounds; the reason, where there are none.

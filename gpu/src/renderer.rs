@@ -20,8 +20,9 @@ use std::ops::Range;
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
 
-/// About the most samples of one submission, so that no driver takes it for a fault.
-const SAMPLES_AT_ONCE: f64 = (1u64 << 26) as f64;
+/// About the most samples of one submission to a card, so that no driver takes it for a fault; and to software, so that
+/// progress is heard.
+const SAMPLES_AT_ONCE: [f64; 2] = [(1u64 << 28) as f64, (1u64 << 26) as f64];
 
 /// The first channel of a pixel whose rays the driver ended lies below.
 const UNFINISHED: f64 = -1.5e30;
@@ -224,7 +225,8 @@ impl<'g> Renderer<'g> {
             // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
             let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };
             let samples = self.samples_a_row * (parts_at_once as f64 / (self.rays_across * self.rays_across) as f64);
-            let band = ((SAMPLES_AT_ONCE / samples) as usize).max(GROUP as usize);
+            let at_once = SAMPLES_AT_ONCE[usize::from(self.gpu.is_software())];
+            let band = ((at_once / samples) as usize).max(GROUP as usize);
             for first in pass_rows.clone().step_by(band) {
                 let end = (first + band).min(pass_rows.end);
                 self.shader.block.set("first_row", first as f64);

@@ -5,6 +5,8 @@ mod cost;
 mod double;
 mod field;
 mod formulas;
+#[path = "sabotage/bounds.rs"]
+mod sabotage_of_bounds;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
