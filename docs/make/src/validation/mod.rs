@@ -1,5 +1,6 @@
 //! `docs/validation.md`: graphics cards against the reference, effect by effect.
 
+mod every_scene;
 mod scenes;
 
 use crate::files;
@@ -27,7 +28,8 @@ pub(crate) fn write() -> Result<(), String> {
         }
         found.push((*name, validation));
     }
-    files::write("validation.md", page(&gpu, &found).as_bytes())
+    let page = page(&gpu, &found) + &every_scene::section(&gpu)?;
+    files::write("validation.md", page.as_bytes())
 }
 
 fn of_scene(name: &str, more: &str, gpu: &Gpu) -> Result<Validation, String> {
@@ -113,6 +115,12 @@ The grants of operations and their sources are a table in `reference/src/number/
 ";
 
 const REST: &str = "
+## The texture unit
+
+`--backend gpu-fast` interpolates between voxels by the texture unit, where the kernel is trilinear; gradients by central differences, too.
+Hardware weighs voxels with 8 bits, so a value is off by up to 3·2⁻⁸ of the largest difference between neighbours, which a test holds it to. Software adapters filter in f32.
+All else is that of `--backend gpu`. No bound of a pixel is derived for it.
+
 ## Not drawn by graphics cards yet
 
 Halos, lines inside a volume, counts of samples as a layer, iso-surfaces that planes cut or that are lit otherwise than the volume, and further volumes with values that are not numbers.

@@ -16,17 +16,36 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("contours by a constant", "[contours]\nkappa = \"none\"\nthreshold = 0.3\n"),
     ("mip-maps of styles", "[style_mipmaps]\n"),
     ("contours and mip-maps", "[contours]\nthickness = \"1 voxel\"\n[style_mipmaps]\n"),
+    ("contours by exact κ", "[contours]\nthickness = \"1 voxel\"\nkappa = \"exact\"\n"),
+    ("Phong, cubic B-spline", "[shading]\n[sampling]\nkernel = \"bspline\"\n"),
+    ("Phong, Catmull–Rom", "[shading]\n[sampling]\nkernel = \"catmull-rom\"\n"),
+    ("Phong, Sobel's gradient", "[shading]\n[sampling]\ngradient = \"sobel\"\n"),
+    ("Phong, gradient by regression", "[shading]\n[sampling]\ngradient = \"regression\"\n"),
+    ("Phong, and an iso-surface", "[shading]\n[surface]\niso = 136\n"),
+    ("over value and |g|", OVER_GRADIENT),
+    ("over value and a distance", OVER_DISTANCE),
 ];
 
 /// The effect of colours alone.
 const COLORS: &str = "";
 /// The effect of styles alone.
 const STYLES: &str = "";
+/// Rows of a function over two quantities.
+const OVER_GRADIENT: &str = "over = [\"value\", \"gradient-magnitude\"]\nunit = \"normalized\"\nrows = [
+  { at = 0.1, nodes = [{ at = 0.4, color = \"#804020\", opacity = 0 }, { at = 0.6, color = \"#ffcc88\", opacity = 0.4 }] },
+  { at = 0.8, nodes = [{ at = 0.4, color = \"#3366cc\", opacity = 0 }, { at = 0.6, color = \"#88ccff\", opacity = 0.5 }] },
+]\n";
+const OVER_DISTANCE: &str = "over = [\"value\", { distance = [23, 9, 24] }]\nrows = [
+  { at = 5, nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.4 }] },
+  { at = 30, nodes = [{ at = 90, color = \"#3366cc\", opacity = 0 }, { at = 120, color = \"#88ccff\", opacity = 0.5 }] },
+]\n";
 
 /// The scene of an effect, in a picture so large.
 pub(super) fn scene(name: &str, more: &str, [width, height]: [usize; 2]) -> String {
     let is_style = ["styles", "contours", "mip-maps"].iter().any(|word| name.contains(word));
-    let nodes = if is_style {
+    let nodes = if name.starts_with("over ") {
+        "kind = \"regular\""
+    } else if is_style {
         "nodes = [{ at = 100, style = \"wax\", opacity = 0 }, { at = 128, style = \"wax\", opacity = 0.3 },\n\
          { at = 140, style = \"chalk\", opacity = 0.9 }]"
     } else {
