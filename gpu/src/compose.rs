@@ -37,7 +37,7 @@ pub(crate) fn shader(
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
-    ray::add_cast(&mut shader, shot);
+    ray::add_cast(&mut shader, shot, inputs.has_lines);
     if let Some(mask) = inputs.volume.mask() {
         field::mask::add(&mut shader, mask, grid);
         ray::add_mask(&mut shader);
@@ -92,6 +92,9 @@ pub(crate) fn shader(
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     if let Some(surface) = &shot.surface {
         surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision));
+        if inputs.has_lines {
+            ray::lines::add_surface(&mut shader);
+        }
         if inputs.volume.mask().is_some() {
             surface::add_mask(&mut shader);
         }

@@ -3,9 +3,11 @@
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::field::Scales;
 use crate::ray::layers::in_picture_units;
+use crate::ray::lines::LinesOnRays;
 use crate::shader::{Data, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
@@ -40,6 +42,8 @@ pub struct Inputs<'a> {
     pub styles: &'a [Style],
     /// The background.
     pub background: Backdrop<'a>,
+    /// Whether frames can have lines inside the volume ([HATCH-14] d).
+    pub has_lines: bool,
 }
 
 /// A shot that is ready to be drawn any number of times.
@@ -53,6 +57,8 @@ pub struct Renderer<'g> {
     refinement: Option<Pass>,
     params: wgpu::Buffer,
     data: wgpu::BindGroup,
+    /// Lines inside the volume; none where no frame can have any.
+    lines: Option<LinesOnRays>,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -90,9 +96,13 @@ impl<'g> Renderer<'g> {
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
-        let pass = |entry_point, lists| Pass::new(gpu, &text, entry_point, lists, &data_layout);
-        let draw = pass("draw", 1)?;
-        let refinement = shot.refine_above.map(|_| pass("refine", 2)).transpose()?;
+        let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, inputs.volume.grid()));
+        let pass = |entry_point, reads: &[u32]| {
+            let of_lines: &[u32] = if lines.is_some() { &[3, 4] } else { &[] };
+            Pass::new(gpu, &text, entry_point, &[reads, of_lines].concat(), &data_layout)
+        };
+        let draw = pass("draw", &[0])?;
+        let refinement = shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?;
         let params = buffer(
             gpu,
             "the parameters",
@@ -110,6 +120,7 @@ impl<'g> Renderer<'g> {
             refinement,
             params,
             data,
+            lines,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
@@ -124,6 +135,22 @@ impl<'g> Renderer<'g> {
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         self.shader.block.update(&compose::camera(shot, grid)?);
+        if let Some(lines) = &mut self.lines {
+            lines.turn(shot, grid);
+        }
+        Ok(())
+    }
+
+    /// Puts lines inside the frames that follow, or takes them out: those of the camera of these frames ([HATCH-14] d).
+    ///
+    /// # Errors
+    /// Lines in a shot that was prepared without them.
+    pub fn merge(&mut self, lines: Option<Fragments>) -> Result<(), GpuError> {
+        match &mut self.lines {
+            Some(on_rays) => on_rays.lines = lines,
+            None if lines.is_some() => return Err(GpuError::NoLines),
+            None => {}
+        }
         Ok(())
     }
 
@@ -204,7 +231,9 @@ impl<'g> Renderer<'g> {
             let back = new(rows, wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
             (out, back, first_picture.map(|_| new(rows + 2, usage | wgpu::BufferUsages::COPY_DST)))
         })?;
+        let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
         let mut entries = vec![entry(0, &self.params), entry(1, &out)];
+        entries.extend(lines.iter().flat_map(|[starts, fragments]| [entry(3, starts), entry(4, fragments)]));
         entries.extend(before.iter().map(|before| entry(2, before)));
         let group = gpu.attempt("the picture", || {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -279,15 +308,16 @@ struct Pass {
 }
 
 impl Pass {
-    /// An entry point that reads the parameters, writes the picture, and reads `lists` − 1 further lists.
+    /// An entry point that writes the picture and reads lists of group 0, by their bindings.
     fn new(
         gpu: &Gpu,
         text: &str,
         entry_point: &'static str,
-        lists: u32,
+        reads: &[u32],
         data: &wgpu::BindGroupLayout,
     ) -> Result<Self, GpuError> {
-        let entries: Vec<_> = (0..=lists).map(|binding| list_entry(binding, binding != 1)).collect();
+        let lists = reads.iter().map(|&binding| list_entry(binding, true));
+        let entries: Vec<_> = lists.chain([list_entry(1, false)]).collect();
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
         Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })

@@ -48,6 +48,8 @@ pub(crate) enum Constant {
 /// entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stages {
+    /// Before a ray of a pixel begins.
+    pub(crate) begin_part: Vec<&'static str>,
     /// When a ray begins.
     pub(crate) begin_ray: Vec<&'static str>,
     /// From the run of samples in the box to those that are left.
@@ -149,6 +151,8 @@ impl Stages {
         };
         let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
         let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
+        let lines = calls(&self.begin_part, &|s| format!("{s}(pixel, part, across);"));
+        function("begin_part(pixel: vec2<i32>, part: i32, across: i32)", &lines, None);
         function("begin_ray(ray: Ray)", &calls(&self.begin_ray, &|s| format!("{s}(ray);")), None);
         let lines = calls(&self.samples_left, &|s| format!("left = {s}(ray, left);"));
         let lines = with("var left = run;", lines);

@@ -43,7 +43,7 @@ impl VolumeRenderer<'_> {
         match self {
             Self::Reference(renderer) => renderer.merge(lines),
             #[cfg(feature = "gpu")]
-            Self::Gpu(frames) => return frames.merge(lines.as_ref()),
+            Self::Gpu(frames) => return frames.merge(lines),
         }
         Ok(())
     }

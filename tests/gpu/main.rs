@@ -4,6 +4,9 @@
 mod double;
 mod field;
 mod formulas;
+mod lines;
+#[path = "sabotage/lines.rs"]
+mod sabotage_of_lines;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]

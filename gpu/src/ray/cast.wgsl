@@ -34,10 +34,7 @@ fn cast_ray(ray: Ray) -> Front {
             continue;
         }
         let attributes = measured_rest(ray, sample, first);
-        let shaded = shown(ray, sample, attributes);
-        let alpha = corrected(shaded.alpha, ratio * steps_of(k));
-        collect(ray, sample, attributes, alpha);
-        front = over(front, in_blend_space(shaded.rgb), alpha);
+        front = composite(front, ray, sample, attributes, shown(ray, sample, attributes), ratio);
         if (front.opacity >= params.stop_at) {
             is_closed = true;
             break;
