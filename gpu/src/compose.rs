@@ -9,7 +9,7 @@ use crate::{
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, OpaqueSurface, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
@@ -66,6 +66,9 @@ pub(crate) fn shader(
     }
     if query.kappa == KappaSource::AlongRay {
         style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
+        if shot.surface.is_some() {
+            surface::add_curvature_along_ray(&mut shader);
+        }
     }
     let rows = object.function.nodes().2;
     if let Some(rows) = rows {
@@ -91,14 +94,15 @@ pub(crate) fn shader(
     }
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     if let Some(surface) = &shot.surface {
-        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision));
+        let has_mask = inputs.volume.mask().is_some();
+        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision), has_mask);
         if inputs.has_lines {
             ray::lines::add_surface(&mut shader);
         }
-        if inputs.volume.mask().is_some() {
-            surface::add_mask(&mut shader);
-        }
         light_surface(&mut shader, &object.material, &surface.lit)?;
+        if clips {
+            surface::add_caps(&mut shader, !of_caps.is_empty());
+        }
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
@@ -132,11 +136,7 @@ fn light_of(lit: &Illumination) -> Option<DVec3> {
 /// Refuses what no module draws.
 fn refuse(shot: &Shot) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
-    missing(!shot.halos.list.is_empty(), "halos", "halo")?;
-    let is_cut = shot.surface.is_some() && !shot.clipping.planes.is_empty();
-    missing(is_cut, "iso-surfaces that planes cut", "clip")?;
-    let along_ray = |surface: &OpaqueSurface| surface.query.and(surface.first).kappa == KappaSource::AlongRay;
-    missing(shot.surface.as_ref().is_some_and(along_ray), "curvatures along the ray of iso-surfaces", "picture.layers")
+    missing(!shot.halos.list.is_empty(), "halos", "halo")
 }
 
 /// Adds the light of a regular function.

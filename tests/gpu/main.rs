@@ -11,6 +11,8 @@ mod sabotage_of_lines;
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
 mod sabotage_of_styles;
+#[path = "sabotage/surfaces.rs"]
+mod sabotage_of_surfaces;
 #[path = "sabotage/field.rs"]
 mod sabotage_of_the_field;
 mod styles;

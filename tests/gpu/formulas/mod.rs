@@ -97,6 +97,9 @@ const HELD_BY_PICTURES: &[&str] = &[
     "begin_sums",
     "between_nodes",
     "beyond",
+    "can_be_inside",
+    "cap_surface",
+    "cap_surface_by_style",
     "cast_ray",
     "clip_run",
     "collect_layers",
@@ -105,6 +108,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "composite",
     "composite_share",
     "crosses",
+    "cut_surface",
     "difference",
     "difference_taps",
     "displayed",
@@ -127,6 +131,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "is_at_edge",
     "is_crossed",
     "is_cut",
+    "is_inside_surface",
     "is_masked",
     "last_before_surface",
     "leaves_block",
@@ -134,6 +139,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "magnitude_of_gradient",
     "mean_of",
     "measure_along_ray",
+    "measure_along_ray_at_surface",
     "measure_curvature",
     "measure_cut",
     "measure_gradient",
@@ -163,6 +169,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "skip_brick",
     "skip_masked",
     "tensor_second",
+    "under_cap",
 ];
 
 /// A function is covered by a table if a test calls it, or a function that a test calls does.
