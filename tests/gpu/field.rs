@@ -182,3 +182,37 @@ fn curvature_along_the_ray_at_surfaces() {
         }
     }
 }
+
+/// An iso-surface with a light of its own in a volume with another one.
+#[test]
+fn lights_of_surfaces() {
+    let shaded = "[shading]\nshininess = 8\n";
+    let tones = |at: [f64; 2]| format!("offset = 0.1\ntones = [[{}, \"#503020\"], [{}, \"#ffe0c0\"]]\n", at[0], at[1]);
+    let toon = format!("[shading]\nmodel = \"toon\"\n[shading.toon]\n{}", tones([0.0, 0.3]));
+    let silhouette = |of: &str, offset: f64| format!("[{of}.silhouette]\noffset = {offset}\n");
+    let surface = |look: &str| format!("[surface]\niso = 150\nlook = \"{look}\"\ncolor = \"#d8b4cc\"\n");
+    let in_tones = format!("{}[surface.toon]\n{}", surface("toon"), tones([0.0, 0.6]));
+    for (name, more) in [
+        ("toon in Phong", format!("{shaded}{in_tones}")),
+        ("Phong in toon", format!("{toon}{}", surface("phong"))),
+        ("toon in toon", format!("{toon}{in_tones}")),
+        ("Phong in Phong", format!("{shaded}{}", surface("phong"))),
+        ("toon in flat", in_tones.clone()),
+        ("white in toon", format!("{toon}{}", surface("white"))),
+        (
+            "silhouettes of both",
+            format!("{shaded}{}{}{}", silhouette("shading", 0.1), surface("phong"), silhouette("surface", 0.3)),
+        ),
+        ("silhouettes of the surface", format!("{shaded}{}{}", surface("white"), silhouette("surface", 0.3))),
+        ("silhouettes of the volume", format!("{shaded}{}{}", silhouette("shading", 0.3), surface("phong"))),
+        ("view opacity", format!("[shading]\nview_opacity = 0.5\n{in_tones}")),
+        (
+            "toon, cut",
+            format!(
+                "{shaded}{in_tones}[[clip]]\npoint = [4.3, 3.1, 4.2]\nnormal = [0.3, -0.3, 1]\nspace = \"index\"\ncap = \"#ff301080\"\n"
+            ),
+        ),
+    ] {
+        compare(name, &VOLUMES[1..2], &more);
+    }
+}

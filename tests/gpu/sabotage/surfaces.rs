@@ -59,3 +59,27 @@ fn faults_of_curvature_along_the_ray_at_surfaces_are_noticed() {
         ],
     );
 }
+
+#[test]
+fn faults_of_lights_of_surfaces_are_noticed() {
+    let tones = "tones = [[0, \"#503020\"], [0.6, \"#ffe0c0\"]]\n";
+    let toon = format!("[shading]\nmodel = \"toon\"\n[surface]\niso = 150\nlook = \"toon\"\n[surface.toon]\n{tones}");
+    let with = |more: &str| scene([9, 8, 10], "float", more);
+    all_are_noticed(
+        &with(&toon),
+        &[
+            ("params.surface_toon_offset, FIRST_SURFACE_TONE, SURFACE_TONES", "params.toon_offset, 0, TONES"),
+            ("Toon(surface_light(), params.surface_toon_offset", "Toon(-surface_light(), params.surface_toon_offset"),
+        ],
+    );
+    all_are_noticed(
+        &with(
+            "[shading]\nmodel = \"toon\"\n[surface]\niso = 150\nlook = \"phong\"\n[surface.silhouette]\noffset = 0.3\n",
+        ),
+        &[
+            ("        params.surface_specular,\n", "        params.surface_diffuse,\n"),
+            ("params.surface_silhouette_offset);", "0.4);"),
+            ("        surface_light(),\n", "        light().yxz,\n"),
+        ],
+    );
+}
