@@ -56,6 +56,8 @@ pub(crate) struct Stages {
     pub(crate) samples_left: Vec<&'static str>,
     /// From a sample to the next plane that can show something.
     pub(crate) next_plane: Vec<&'static str>,
+    /// When a sample's value is evaluated.
+    pub(crate) visited: Vec<&'static str>,
     /// From the place of a value to that between nodes.
     pub(crate) nodes: Vec<&'static str>,
     /// Attributes that decide whether a sample is visible.
@@ -160,6 +162,7 @@ impl Stages {
         let lines =
             with("var next = sample.k;", calls(&self.next_plane, &|s| format!("next = max(next, {s}(ray, sample));")));
         function("next_plane(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
+        function("visited(sample: Sample)", &calls(&self.visited, &|s| format!("{s}(sample);")), None);
         let lines = with("var place = located;", calls(&self.nodes, &|s| format!("place = {s}(place);")));
         function("node_place(located: NodePlace) -> NodePlace", &lines, Some("place"));
         let lines =

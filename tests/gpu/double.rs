@@ -140,6 +140,13 @@ fn pictures() {
         ("rays at edges", format!("{}[shading]\n", with(""))),
         ("layers", format!("{}[shading]\n", with(&format!("samples = 1\n{}", &layers[..layers.len() - 10])))),
         ("layers of refined pixels", format!("{}[shading]\n", with(&layers[..layers.len() - 10]))),
+        ("counts", format!("{}[shading]\n", with("samples = 2\nlayers = [\"counts\", \"beauty\"]\n"))),
+        ("counts of refined pixels", format!("{}[shading]\n", with("layers = [\"counts\", \"beauty\", \"Z\"]\n"))),
+        ("counts alone", with("layers = [\"counts\"]\n")),
+        (
+            "counts of all samples",
+            format!("{}[sampling]\nkernel = \"bspline\"\nskip_empty = false\n", with("layers = [\"counts\"]\n")),
+        ),
         ("no background", TORUS.replace("background = \"#203040\"", "background = \"none\"")),
         ("table", TORUS.replace("kind = \"regular\"", "kind = \"regular\"\ntable = 64")),
     ] {

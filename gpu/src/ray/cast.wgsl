@@ -24,6 +24,7 @@ fn cast_ray(ray: Ray) -> Front {
             k = next - 1;
             continue;
         }
+        visited(sample);
         sample.s = value_at(sample.at);
         sample.place = node_place(locate_value(sample.s));
         if (!(sample.place.alpha_u > 0.0)) {

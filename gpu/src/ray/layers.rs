@@ -12,7 +12,7 @@ const NOWHERE: f64 = 1e37;
 
 /// Adds the channels of layers, and the sums that they need.
 pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuError> {
-    if layers.iter().any(|&layer| layer != LayerKind::Beauty) {
+    if layers.iter().any(|&layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts)) {
         shader.add(&[EYE_NORMAL, module!("layers")]);
         shader.stages.begin_ray.push("begin_sums");
         shader.stages.collect.push("collect_layers");
@@ -37,7 +37,11 @@ pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuEr
             LayerKind::FirstCurvature => channels.extend(first("curvature")),
             LayerKind::FirstCurvatureAlongView => channels.push("pixel_sums.first.curvature.z".to_owned()),
             LayerKind::Counts => {
-                return Err(GpuError::Missing { what: "counts of samples", key: "picture.layers" });
+                channels.push("real(samples_of_pixel)".to_owned());
+                shader.add(&[module!("counts")]);
+                shader.stages.begin_ray.push("begin_count");
+                shader.stages.visited.push("count_sample");
+                shader.stages.end_ray.push("end_count");
             }
             LayerKind::Halo(_) => {
                 return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" });

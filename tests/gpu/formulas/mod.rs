@@ -93,6 +93,7 @@ fn functions() -> Vec<(String, String)> {
 const HELD_BY_PICTURES: &[&str] = &[
     "ask_before",
     "background_at",
+    "begin_count",
     "begin_lines",
     "begin_sums",
     "between_nodes",
@@ -107,6 +108,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "color_of",
     "composite",
     "composite_share",
+    "count_sample",
     "crosses",
     "cut_surface",
     "difference",
@@ -115,6 +117,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "draw",
     "draw_pixel",
     "end_at_surface",
+    "end_count",
     "end_lines_at_surface",
     "enter_box",
     "eye_normal",
