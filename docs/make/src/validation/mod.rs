@@ -115,7 +115,7 @@ The grants of operations and their sources are a table in `reference/src/number/
 const REST: &str = "
 ## Not drawn by graphics cards yet
 
-Halos, counts of samples as a layer, and further volumes with values that are not numbers.
-A scene that asks for one of them is refused, with the key that asks; the CPU draws it.
+Halos. A scene with halos is refused, and the CPU draws it.
+A layer of counts has the samples that the card evaluates, which f32 and the skipping of bricks make other ones than the CPU's; a sample that lines split counts once.
 Bounds are known for colours over a transfer function that is not read from a table, without rays at edges; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
 ";
