@@ -156,3 +156,6 @@ fn add_light(shader: &mut Shader, lit: &Illumination, of: LitColors) {
         interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -291,7 +291,7 @@ impl<'g> Renderer<'g> {
 }
 
 /// The layers that a shader draws. Edges are found by the beauty, which comes first then.
-fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
+pub(crate) fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
     let (mut first, mut layers) = (Vec::new(), shot.layers.clone());
     if shot.refine_above.is_some() {
         first.push(LayerKind::Beauty);
