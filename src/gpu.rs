@@ -9,6 +9,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
+use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::Shot;
 use std::time::Instant;
 
@@ -19,6 +20,8 @@ pub struct GpuJob<'a> {
     shot: Shot,
     measured: Measured,
     volume: Volume,
+    /// Whether frames can have lines inside the volume.
+    has_lines: bool,
 }
 
 impl<'a> GpuJob<'a> {
@@ -29,7 +32,7 @@ impl<'a> GpuJob<'a> {
     pub fn new(job: &'a Job, gpu: &'a Gpu, precision: Precision) -> Result<Self, Failure> {
         let shot = job.shot()?;
         let measured = job.renderer()?.measured(&shot);
-        Self::upload(job, gpu, shot, measured, precision)
+        Self::upload(job, gpu, shot, measured, &job.plan, precision)
     }
 
     /// Measures the volume of a job for a scene with other knobs, and uploads it.
@@ -39,7 +42,7 @@ impl<'a> GpuJob<'a> {
     pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
         let shot = job.shot_of(variant)?;
         let measured = job.renderer_of(variant)?.measured(&shot);
-        Self::upload(job, gpu, shot, measured, precision)
+        Self::upload(job, gpu, shot, measured, &variant.plan, precision)
     }
 
     fn upload(
@@ -47,10 +50,11 @@ impl<'a> GpuJob<'a> {
         gpu: &'a Gpu,
         shot: Shot,
         measured: Measured,
+        plan: &Plan,
         precision: Precision,
     ) -> Result<Self, Failure> {
         let volume = Volume::new(gpu, &measured, precision).map_err(|error| failure(&error, job))?;
-        Ok(Self { job, gpu, shot, measured, volume })
+        Ok(Self { job, gpu, shot, measured, volume, has_lines: plan.has_pass(Pass::MergedStrokes) })
     }
 
     /// Returns a renderer of the job's picture.
@@ -73,6 +77,7 @@ impl<'a> GpuJob<'a> {
             further: self.job.further.each_ref().map(Option::as_ref),
             styles: &self.job.styles,
             background: self.job.backdrop(&self.shot),
+            has_lines: self.has_lines,
         };
         let renderer = Renderer::edited(self.gpu, &self.volume, &self.shot, &inputs, edit);
         renderer.map_err(|error| failure(&error, self.job))
@@ -151,13 +156,12 @@ impl<'a> GpuFrames<'a> {
         self.rays_across
     }
 
-    /// Puts lines inside the frames that follow, which has no shader yet.
+    /// Puts lines inside the frames that follow, or takes them out.
     ///
     /// # Errors
-    /// Lines.
-    pub fn merge(&mut self, lines: Option<&Fragments>) -> Result<(), Failure> {
-        let missing = GpuError::Missing { what: "strokes inside a volume", key: "hatching.mode" };
-        if lines.is_some() { Err(failure(&missing, self.job)) } else { Ok(()) }
+    /// Lines in a scene whose plan has none inside the volume.
+    pub fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure> {
+        self.renderer.merge(lines).map_err(|error| failure(&error, self.job))
     }
 
     /// Takes the camera and the lights of another shot of the job.
@@ -248,7 +252,7 @@ fn remedy(error: &GpuError) -> &'static str {
         GpuError::NoFilter { .. } => "write --backend gpu: the shader interpolates then",
         GpuError::TooManyPlanes { .. } => "take a larger sampling.step, or move the eye closer",
         GpuError::Lost { .. } | GpuError::Refused { .. } => "update the driver, or leave --backend out",
-        GpuError::Missing { .. } | GpuError::NoDouble { .. } | GpuError::Material => {
+        GpuError::Missing { .. } | GpuError::NoDouble { .. } | GpuError::NoLines | GpuError::Material => {
             "leave --backend out: the CPU renders it"
         }
     }

@@ -69,7 +69,7 @@ impl<'a> VolumeRenderer<'a> {
         match self {
             Self::Reference(renderer) => renderer.merge(lines),
             #[cfg(feature = "gpu")]
-            Self::Gpu(frames) => return frames.merge(lines.as_ref()),
+            Self::Gpu(frames) => return frames.merge(lines),
         }
         Ok(())
     }

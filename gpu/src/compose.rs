@@ -3,13 +3,14 @@
 use crate::block::Block;
 use crate::field::Scales;
 use crate::shader::{Constant, Shader};
+use crate::shading::LitColors;
 use crate::{
     GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, ray, shading,
     style_transfer_functions, surface, transfer,
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, OpaqueSurface, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
 use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
@@ -38,7 +39,7 @@ pub(crate) fn shader(
     ray::add_lattice(&mut shader, shot, grid)?;
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
-    ray::add_cast(&mut shader, shot);
+    ray::add_cast(&mut shader, shot, inputs.has_lines);
     if let Some(mask) = inputs.volume.mask() {
         field::mask::add(&mut shader, mask, grid);
         ray::add_mask(&mut shader);
@@ -67,6 +68,9 @@ pub(crate) fn shader(
     }
     if query.kappa == KappaSource::AlongRay {
         style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
+        if shot.surface.is_some() {
+            surface::add_curvature_along_ray(&mut shader);
+        }
     }
     let rows = object.function.nodes().2;
     if let Some(rows) = rows {
@@ -78,7 +82,7 @@ pub(crate) fn shader(
         (Function::Regular(nodes), Material::Regular(lit)) => {
             let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
             transfer::add_colors(&mut shader, &nodes.color, between);
-            add_light(&mut shader, lit);
+            add_light(&mut shader, lit, LitColors::Samples);
         }
         (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles.len() => {
             let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
@@ -92,11 +96,15 @@ pub(crate) fn shader(
     }
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     if let Some(surface) = &shot.surface {
-        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision));
-        if inputs.volume.mask().is_some() {
-            surface::add_mask(&mut shader);
+        let has_mask = inputs.volume.mask().is_some();
+        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision), has_mask);
+        if inputs.has_lines {
+            ray::lines::add_surface(&mut shader);
         }
-        light_surface(&mut shader, &object.material, &surface.lit)?;
+        add_light(&mut shader, &surface.lit, LitColors::Surface);
+        if clips {
+            surface::add_caps(&mut shader, !of_caps.is_empty());
+        }
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
@@ -111,9 +119,11 @@ pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
     let mut block = Block::default();
     ray::add_view(&mut block, shot, grid)?;
     let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
-    let light = of_samples.or(shot.surface.as_ref().and_then(|surface| light_of(&surface.lit)));
-    if let Some(light) = light {
-        block.vector("light", light);
+    let of_surface = shot.surface.as_ref().and_then(|surface| light_of(&surface.lit));
+    for (of, light) in [(LitColors::Samples, of_samples), (LitColors::Surface, of_surface)] {
+        if let Some(light) = light {
+            block.vector(of.light(), light);
+        }
     }
     Ok(block)
 }
@@ -130,57 +140,23 @@ fn light_of(lit: &Illumination) -> Option<DVec3> {
 /// Refuses what no module draws.
 fn refuse(shot: &Shot) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
-    missing(!shot.halos.list.is_empty(), "halos", "halo")?;
-    let is_cut = shot.surface.is_some() && !shot.clipping.planes.is_empty();
-    missing(is_cut, "iso-surfaces that planes cut", "clip")?;
-    let along_ray = |surface: &OpaqueSurface| surface.query.and(surface.first).kappa == KappaSource::AlongRay;
-    missing(shot.surface.as_ref().is_some_and(along_ray), "curvatures along the ray of iso-surfaces", "picture.layers")
+    missing(!shot.halos.list.is_empty(), "halos", "halo")
 }
 
-/// Adds the light of a regular function.
-fn add_light(shader: &mut Shader, lit: &Illumination) {
+/// Adds the light of colours.
+fn add_light(shader: &mut Shader, lit: &Illumination, of: LitColors) {
     match &lit.lighting {
         Lighting::Flat => {}
-        Lighting::Phong(phong) => shading::add(shader, phong),
-        Lighting::Toon(toon) => interactive_volume_illustration::add_toon(shader, toon),
+        Lighting::Phong(phong) => shading::add(shader, phong, of),
+        Lighting::Toon(toon) => interactive_volume_illustration::add_toon(shader, toon, of),
     }
     if let Some(offset) = lit.silhouette {
-        interactive_volume_illustration::add_silhouette(shader, offset);
+        interactive_volume_illustration::add_silhouette(shader, offset, of);
     }
     if lit.view_opacity > 0.0 {
         interactive_volume_illustration::add_view_opacity(shader, lit.view_opacity);
     }
 }
 
-/// Adds the light of an iso-surface. A surface and samples that are lit by one model share its numbers.
-fn light_surface(shader: &mut Shader, material: &Material, lit: &Illumination) -> Result<(), GpuError> {
-    let other =
-        || Err(GpuError::Missing { what: "iso-surfaces that are lit otherwise than the volume", key: "surface.look" });
-    let of_samples = if let Material::Regular(of_samples) = material { Some(of_samples) } else { None };
-    let lighting = of_samples.map_or(&Lighting::Flat, |lit| &lit.lighting);
-    let silhouette = of_samples.and_then(|lit| lit.silhouette);
-    let differs = match (lighting, &lit.lighting) {
-        (Lighting::Flat, _) | (_, Lighting::Flat) => false,
-        (samples, surface) => samples != surface,
-    };
-    if differs || (silhouette.is_some() && lit.silhouette.is_some() && silhouette != lit.silhouette) {
-        return other();
-    }
-    let stages = &mut shader.stages;
-    let shown = std::mem::take(&mut stages.shown);
-    // Modules that samples have are there already.
-    let left = Illumination {
-        lighting: if *lighting == Lighting::Flat { lit.lighting.clone() } else { Lighting::Flat },
-        silhouette: if silhouette.is_none() { lit.silhouette } else { None },
-        view_opacity: 0.0,
-    };
-    add_light(shader, &left);
-    let shade = match lit.lighting {
-        Lighting::Flat => None,
-        Lighting::Phong(_) => Some("shade_phong"),
-        Lighting::Toon(_) => Some("shade_toon"),
-    };
-    shader.stages.on_surface = shade.into_iter().chain(lit.silhouette.map(|_| "shade_silhouette")).collect();
-    shader.stages.shown = shown;
-    Ok(())
-}
+#[cfg(test)]
+mod tests;

@@ -94,6 +94,9 @@ pub enum GpuError {
         /// The most planes.
         most: u64,
     },
+    /// Lines are merged with a shot that was prepared without them.
+    #[error("the picture was prepared without lines inside the volume")]
+    NoLines,
     /// The function and the material do not match, or styles are missing.
     #[error("material, transfer function and styles do not match")]
     Material,

@@ -16,24 +16,13 @@ pub(crate) struct PictureBuffers {
     pub(crate) back: wgpu::Buffer,
     /// The numbers before pixels are refined; none: no pixel is.
     before: Option<wgpu::Buffer>,
-    /// Group 0 of the drawing pass.
-    pub(crate) drawn: wgpu::BindGroup,
-    /// Group 0 of the refinement.
-    pub(crate) refined: Option<wgpu::BindGroup>,
 }
 
 impl PictureBuffers {
-    /// Buffers for as many of a picture's `height` rows as a shader can write, with the layouts of group 0 of both passes.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        params: &wgpu::Buffer,
-        draw: &wgpu::BindGroupLayout,
-        refine: Option<&wgpu::BindGroupLayout>,
-        bytes_a_row: u64,
-        height: usize,
-    ) -> Result<Self, GpuError> {
+    /// Buffers for as many of a picture's `height` rows as a shader can write.
+    pub(crate) fn new(gpu: &Gpu, refines: bool, bytes_a_row: u64, height: usize) -> Result<Self, GpuError> {
         // Of rows that are refined one more is drawn on either side.
-        let around = if refine.is_some() { 2 } else { 0 };
+        let around = if refines { 2 } else { 0 };
         let most = gpu.device.limits().max_storage_buffer_binding_size;
         let fit = usize::try_from(most / bytes_a_row.max(1)).unwrap_or(usize::MAX);
         let rows = if fit < height { fit.saturating_sub(around).max(1) } else { height };
@@ -50,17 +39,25 @@ impl PictureBuffers {
         let (out, back, before) = gpu.attempt("the picture", || {
             let out = new(storage | wgpu::BufferUsages::COPY_SRC);
             let back = new(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST);
-            (out, back, refine.map(|_| new(storage | wgpu::BufferUsages::COPY_DST)))
+            (out, back, refines.then(|| new(storage | wgpu::BufferUsages::COPY_DST)))
         })?;
-        let group = |layout: &wgpu::BindGroupLayout, further: Option<&wgpu::Buffer>| {
-            let mut entries = vec![entry(0, params), entry(1, &out)];
-            entries.extend(further.map(|buffer| entry(2, buffer)));
-            let descriptor = wgpu::BindGroupDescriptor { label: Some("picture"), layout, entries: &entries };
-            gpu.attempt("the picture", || gpu.device.create_bind_group(&descriptor))
-        };
-        let drawn = group(draw, None)?;
-        let refined = refine.map(|layout| group(layout, before.as_ref())).transpose()?;
-        Ok(Self { rows, bytes_a_row, out, back, before, drawn, refined })
+        Ok(Self { rows, bytes_a_row, out, back, before })
+    }
+
+    /// Group 0 of the drawing pass, or of the refinement. `further` are buffers with their bindings.
+    pub(crate) fn group(
+        &self,
+        gpu: &Gpu,
+        params: &wgpu::Buffer,
+        layout: &wgpu::BindGroupLayout,
+        refines: bool,
+        further: &[(u32, &wgpu::Buffer)],
+    ) -> Result<wgpu::BindGroup, GpuError> {
+        let mut entries = vec![entry(0, params), entry(1, &self.out)];
+        entries.extend(self.before.iter().filter(|_| refines).map(|before| entry(2, before)));
+        entries.extend(further.iter().map(|(binding, buffer)| entry(*binding, buffer)));
+        let descriptor = wgpu::BindGroupDescriptor { label: Some("picture"), layout, entries: &entries };
+        gpu.attempt("the picture", || gpu.device.create_bind_group(&descriptor))
     }
 
     /// The rows that are drawn for rows that are finished.

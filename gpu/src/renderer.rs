@@ -5,10 +5,12 @@ use crate::clock::Clock;
 use crate::field::Scales;
 use crate::picture_buffers::PictureBuffers;
 use crate::ray::layers::in_picture_units;
+use crate::ray::lines::LinesOnRays;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
@@ -42,6 +44,8 @@ pub struct Inputs<'a> {
     pub styles: &'a [Style],
     /// The background.
     pub background: Backdrop<'a>,
+    /// Whether frames can have lines inside the volume ([HATCH-14] d).
+    pub has_lines: bool,
 }
 
 /// A shot that is ready to be drawn any number of times.
@@ -58,6 +62,8 @@ pub struct Renderer<'g> {
     picture: PictureBuffers,
     presentation: Option<Presentation>,
     clock: Option<Clock>,
+    /// Lines inside the volume; none where no frame can have any.
+    lines: Option<LinesOnRays>,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -95,9 +101,13 @@ impl<'g> Renderer<'g> {
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
-        let pass = |entry_point, lists| Pass::new(gpu, &text, entry_point, lists, &data_layout);
-        let draw = pass("draw", 1)?;
-        let refinement = shot.refine_above.map(|_| pass("refine", 2)).transpose()?;
+        let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, inputs.volume.grid()));
+        let pass = |entry_point, reads: &[u32]| {
+            let of_lines: &[u32] = if lines.is_some() { &[3, 4] } else { &[] };
+            Pass::new(gpu, &text, entry_point, &[reads, of_lines].concat(), &data_layout)
+        };
+        let draw = pass("draw", &[0])?;
+        let refinement = shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?;
         let params = buffer(
             gpu,
             "the parameters",
@@ -106,8 +116,7 @@ impl<'g> Renderer<'g> {
         )?;
         let channels: usize = layers.iter().map(|layer| layer.channels().len()).sum();
         let bytes_a_row = (shot.view.size[0] * channels) as u64 * precision.size();
-        let refined = refinement.as_ref().map(|pass: &Pass| &pass.layout);
-        let picture = PictureBuffers::new(gpu, &params, &draw.layout, refined, bytes_a_row, shot.view.size[1])?;
+        let picture = PictureBuffers::new(gpu, refinement.is_some(), bytes_a_row, shot.view.size[1])?;
         let rays = (shot.rays_across * shot.rays_across) as f64;
         let planes = shot.lattice.planes(&shot.view, inputs.volume.grid());
         Ok(Self {
@@ -122,6 +131,7 @@ impl<'g> Renderer<'g> {
             picture,
             presentation: None,
             clock: Clock::new(gpu)?,
+            lines,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
@@ -136,6 +146,22 @@ impl<'g> Renderer<'g> {
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         self.shader.block.update(&compose::camera(shot, grid)?);
+        if let Some(lines) = &mut self.lines {
+            lines.turn(shot, grid);
+        }
+        Ok(())
+    }
+
+    /// Puts lines inside the frames that follow, or takes them out: those of the camera of these frames ([HATCH-14] d).
+    ///
+    /// # Errors
+    /// Lines in a shot that was prepared without them.
+    pub fn merge(&mut self, lines: Option<Fragments>) -> Result<(), GpuError> {
+        match &mut self.lines {
+            Some(on_rays) => on_rays.lines = lines,
+            None if lines.is_some() => return Err(GpuError::NoLines),
+            None => {}
+        }
         Ok(())
     }
 
@@ -219,7 +245,11 @@ impl<'g> Renderer<'g> {
         let around = self.picture.rows_around(&rows, height);
         let passes = 1 + usize::from(self.refinement.is_some());
         self.shader.block.set("top_row", around.start as f64);
+        let lines = self.lines.as_ref().map(|lines| lines.buffers(self.gpu, self.precision)).transpose()?;
+        let lines: Vec<_> = lines.iter().flat_map(|[starts, fragments]| [(3, starts), (4, fragments)]).collect();
         for pass in 0..passes {
+            let layout = &self.pass(pass).layout;
+            let group = self.picture.group(self.gpu, &self.params, layout, pass > 0, &lines)?;
             let (pass_rows, rays) = if pass == 0 { (around.clone(), self.rays_across) } else { (rows.clone(), 3) };
             let parts = rays * rays;
             // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
@@ -239,7 +269,7 @@ impl<'g> Renderer<'g> {
                     let is_end_of_rows = is_end_of_pass && pass + 1 == passes;
                     let stamps = [is_first, is_end_of_rows && rows.end == height];
                     let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
-                    self.submit(pass, groups, stamps, |picture, encoder| {
+                    self.submit(pass, &group, groups, stamps, |picture, encoder| {
                         if is_end_of_rows {
                             picture.copy_back(encoder, rows.start - around.start, rows.len());
                         } else if is_end_of_pass {
@@ -256,20 +286,22 @@ impl<'g> Renderer<'g> {
         Ok(())
     }
 
+    /// The drawing pass, 0, or the refinement, 1.
+    fn pass(&self, pass: usize) -> &Pass {
+        self.refinement.as_ref().filter(|_| pass > 0).unwrap_or(&self.draw)
+    }
+
     /// Submits one dispatch of the drawing pass, or of the refinement, and the copies that follow it. `stamps`: whether the
     /// frame begins with it, and whether it ends.
     fn submit(
         &self,
         pass: usize,
+        group: &wgpu::BindGroup,
         groups: [u32; 2],
         [begins, ends]: [bool; 2],
         then: impl FnOnce(&PictureBuffers, &mut wgpu::CommandEncoder),
     ) -> Result<(), GpuError> {
         let (gpu, picture) = (self.gpu, &self.picture);
-        let (pipeline, group) = match (&self.refinement, &picture.refined) {
-            (Some(refinement), Some(refined)) if pass > 0 => (&refinement.pipeline, refined),
-            _ => (&self.draw.pipeline, &picture.drawn),
-        };
         gpu.attempt("the picture", || {
             gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -277,7 +309,7 @@ impl<'g> Renderer<'g> {
                 let timestamp_writes = self.clock.as_ref().and_then(|clock| clock.stamps(begins, ends));
                 let mut run =
                     encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
-                run.set_pipeline(pipeline);
+                run.set_pipeline(&self.pass(pass).pipeline);
                 run.set_bind_group(0, group, &[]);
                 run.set_bind_group(1, &self.data, &[]);
                 run.dispatch_workgroups(groups[0], groups[1], 1);
@@ -292,7 +324,7 @@ impl<'g> Renderer<'g> {
 }
 
 /// The layers that a shader draws. Edges are found by the beauty, which comes first then.
-fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
+pub(crate) fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
     let (mut first, mut layers) = (Vec::new(), shot.layers.clone());
     if shot.refine_above.is_some() {
         first.push(LayerKind::Beauty);
@@ -309,15 +341,16 @@ struct Pass {
 }
 
 impl Pass {
-    /// An entry point that reads the parameters, writes the picture, and reads `lists` − 1 further lists.
+    /// An entry point that writes the picture and reads lists of group 0, by their bindings.
     fn new(
         gpu: &Gpu,
         text: &str,
         entry_point: &'static str,
-        lists: u32,
+        reads: &[u32],
         data: &wgpu::BindGroupLayout,
     ) -> Result<Self, GpuError> {
-        let entries: Vec<_> = (0..=lists).map(|binding| list_entry(binding, binding != 1)).collect();
+        let lists = reads.iter().map(|&binding| list_entry(binding, true));
+        let entries: Vec<_> = lists.chain([list_entry(1, false)]).collect();
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
         Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })

@@ -50,12 +50,16 @@ pub(crate) enum Constant {
 /// entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stages {
+    /// Before a ray of a pixel begins.
+    pub(crate) begin_part: Vec<&'static str>,
     /// When a ray begins.
     pub(crate) begin_ray: Vec<&'static str>,
     /// From the run of samples in the box to those that are left.
     pub(crate) samples_left: Vec<&'static str>,
     /// From a sample to the next plane that can show something.
     pub(crate) next_plane: Vec<&'static str>,
+    /// When a sample's value is evaluated.
+    pub(crate) visited: Vec<&'static str>,
     /// From the place of a value to that between nodes.
     pub(crate) nodes: Vec<&'static str>,
     /// Attributes that decide whether a sample is visible.
@@ -161,6 +165,8 @@ impl Stages {
         };
         let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
         let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
+        let lines = calls(&self.begin_part, &|s| format!("{s}(pixel, part, across);"));
+        function("begin_part(pixel: vec2<i32>, part: i32, across: i32)", &lines, None);
         function("begin_ray(ray: Ray)", &calls(&self.begin_ray, &|s| format!("{s}(ray);")), None);
         let lines = calls(&self.samples_left, &|s| format!("left = {s}(ray, left);"));
         let lines = with("var left = run;", lines);
@@ -168,6 +174,7 @@ impl Stages {
         let lines =
             with("var next = sample.k;", calls(&self.next_plane, &|s| format!("next = max(next, {s}(ray, sample));")));
         function("next_plane(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
+        function("visited(sample: Sample)", &calls(&self.visited, &|s| format!("{s}(sample);")), None);
         let lines = with("var place = located;", calls(&self.nodes, &|s| format!("place = {s}(place);")));
         function("node_place(located: NodePlace) -> NodePlace", &lines, Some("place"));
         let lines =

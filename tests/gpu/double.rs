@@ -4,16 +4,26 @@ use crate::gpu;
 use drypoint::gpu::{GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::fragments::Fragments;
 
 /// The largest differences between the reference and shaders in f64 and in f32.
 pub(crate) fn differences(scene: &str) -> Option<[f64; 2]> {
+    differences_among(scene, |_| None)
+}
+
+/// These differences with lines inside the picture.
+pub(crate) fn differences_among(scene: &str, lines: impl Fn(&Job) -> Option<Fragments>) -> Option<[f64; 2]> {
     let gpu = gpu()?;
-    let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
-    let (truth, _) = job.renderer().unwrap_or_else(|failure| panic!("{failure}")).frame(&|_| ());
+    let job = load(scene);
+    let lines = lines(&job);
+    let mut reference = job.renderer().unwrap_or_else(|failure| panic!("{failure}"));
+    reference.merge(lines.clone());
+    let (truth, _) = reference.frame(&|_| ());
     Some([Precision::Double, Precision::Single].map(|precision| {
-        let drawn = GpuJob::new(&job, &gpu, precision).and_then(|drawn| drawn.frame(&|_| ()));
-        let drawn = drawn.unwrap_or_else(|failure| panic!("{failure}"));
+        let on_gpu = GpuJob::new(&job, &gpu, precision).unwrap_or_else(|failure| panic!("{failure}"));
+        let mut renderer = on_gpu.renderer().unwrap_or_else(|failure| panic!("{failure}"));
+        let drawn = renderer.merge(lines.clone()).and_then(|()| renderer.frame(&|_| ()));
+        let drawn = drawn.unwrap_or_else(|error| panic!("{error}"));
         let mut largest: f64 = 0.0;
         for (a, b) in truth.layers.iter().zip(&drawn.layers) {
             for (a, b) in a.channels.iter().flatten().zip(b.channels.iter().flatten()) {
@@ -29,19 +39,36 @@ pub(crate) fn differences(scene: &str) -> Option<[f64; 2]> {
     }))
 }
 
-/// The largest difference between the reference and shaders in f64 with a fault: a text in the place of another one.
-pub(crate) fn difference_with(scene: &str, (old, new): (&str, &str)) -> Option<f64> {
-    let gpu = gpu()?;
+/// The job of a scene's text.
+pub(crate) fn load(scene: &str) -> Job {
     let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
-    let (truth, _) = job.renderer().unwrap_or_else(|failure| panic!("{failure}")).frame(&|_| ());
+    Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"))
+}
+
+/// The largest difference between the reference and shaders in f64 with a fault: a text in the place of another one.
+pub(crate) fn difference_with(scene: &str, fault: (&str, &str)) -> Option<f64> {
+    difference_among_with(scene, |_| None, fault)
+}
+
+/// This difference with lines inside the picture.
+pub(crate) fn difference_among_with(
+    scene: &str,
+    lines: impl Fn(&Job) -> Option<Fragments>,
+    (old, new): (&str, &str),
+) -> Option<f64> {
+    let gpu = gpu()?;
+    let job = load(scene);
+    let lines = lines(&job);
+    let mut reference = job.renderer().unwrap_or_else(|failure| panic!("{failure}"));
+    reference.merge(lines.clone());
+    let (truth, _) = reference.frame(&|_| ());
     let drawn = GpuJob::new(&job, &gpu, Precision::Double).unwrap_or_else(|failure| panic!("{failure}"));
     let edit = |text: String| {
         assert_eq!(text.matches(old).count(), 1, "{old}");
         text.replace(old, new)
     };
     let mut renderer = drawn.edited(&edit).unwrap_or_else(|failure| panic!("{failure}"));
-    let drawn = renderer.frame(&|_| ()).unwrap_or_else(|error| panic!("{error}"));
+    let drawn = renderer.merge(lines).and_then(|()| renderer.frame(&|_| ())).unwrap_or_else(|error| panic!("{error}"));
     let pairs = truth.layers.iter().zip(&drawn.layers).flat_map(|(a, b)| a.channels.iter().zip(&b.channels));
     Some(pairs.flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
 }
@@ -113,6 +140,13 @@ fn pictures() {
         ("rays at edges", format!("{}[shading]\n", with(""))),
         ("layers", format!("{}[shading]\n", with(&format!("samples = 1\n{}", &layers[..layers.len() - 10])))),
         ("layers of refined pixels", format!("{}[shading]\n", with(&layers[..layers.len() - 10]))),
+        ("counts", format!("{}[shading]\n", with("samples = 2\nlayers = [\"counts\", \"beauty\"]\n"))),
+        ("counts of refined pixels", format!("{}[shading]\n", with("layers = [\"counts\", \"beauty\", \"Z\"]\n"))),
+        ("counts alone", with("layers = [\"counts\"]\n")),
+        (
+            "counts of all samples",
+            format!("{}[sampling]\nkernel = \"bspline\"\nskip_empty = false\n", with("layers = [\"counts\"]\n")),
+        ),
         ("no background", TORUS.replace("background = \"#203040\"", "background = \"none\"")),
         ("table", TORUS.replace("kind = \"regular\"", "kind = \"regular\"\ntable = 64")),
     ] {

@@ -130,3 +130,89 @@ fn surfaces() {
         assert!(double < 1e-9, "{dims:?}: {double:e}");
     }
 }
+
+/// Iso-surfaces that planes cut open, with and without caps, alone and in the volume.
+#[test]
+fn cut_surfaces() {
+    let phong = "[shading]\n[surface]\niso = 150\nlook = \"phong\"\ncolor = \"#d8b4cc\"\n";
+    let plane = "[[clip]]\npoint = [4.3, 3.1, 4.2]\nnormal = [0.3, -0.3, 1]\nspace = \"index\"\n";
+    let cap = format!("{plane}cap = \"#ff3010a0\"\n");
+    let bounds = "[[clip]]\nbox = [[1.5, 6.8], [0.7, 5.2], [1.2, 6.4]]\nspace = \"index\"\ncap = \"#30ff10\"\n";
+    let styled = format!("{plane}style = \"wax\"\n");
+    let layers = "layers = [\"beauty\", \"Z\", \"depth\", \"first\", \"normal\", \"curvature\"]\n";
+    for (name, more) in [
+        ("cut surface", format!("{phong}{plane}")),
+        ("cut surface, cap", format!("{phong}{cap}")),
+        ("cut surface, box", format!("{phong}{bounds}{plane}")),
+        ("cut surface, style", format!("{phong}{styled}")),
+        ("cut surface, layers", format!("{layers}{phong}{cap}")),
+        ("cut surface, B-spline", format!("{phong}{cap}[sampling]\nkernel = \"bspline\"\n")),
+        ("cut surface, shells", format!("{phong}{cap}[sampling]\nstep_along = \"ray\"\n")),
+    ] {
+        compare(name, &[VOLUMES[1], ([11, 9, 8], "masked")], &more);
+    }
+    for (dims, kind) in [VOLUMES[0], ([11, 9, 8], "masked")] {
+        let text = scene(dims, kind, &format!("{phong}{cap}")).replace("[camera]\n", "outside = \"high\"\n[camera]\n");
+        let alone =
+            format!("{}{}", &text[..text.find("[transfer]").unwrap()], &text[text.find("[picture]").unwrap()..]);
+        for text in [text, alone] {
+            let Some([double, single]) = differences(&text) else { return };
+            println!("cut surface, high outside {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
+            assert!(double < 1e-9, "{dims:?}: {double:e}");
+        }
+    }
+}
+
+/// κ along the ray, in layers of an iso-surface alone and in a volume, whole and cut.
+#[test]
+fn curvature_along_the_ray_at_surfaces() {
+    let layers = "layers = [\"beauty\", \"curvature.KV\", \"first.curvature.KV\"]\n";
+    let cut = "[[clip]]\npoint = [4.3, 3.1, 4.2]\nnormal = [0.3, -0.3, 1]\nspace = \"index\"\n";
+    let surface = "[shading]\n[surface]\niso = 150\nlook = \"phong\"\n";
+    for more in ["", cut, "[sampling]\nnormal = \"facing\"\n"] {
+        for (dims, kind) in &VOLUMES[1..3] {
+            let text = scene(*dims, kind, &format!("{layers}{surface}{more}"));
+            let alone =
+                format!("{}{}", &text[..text.find("[transfer]").unwrap()], &text[text.find("[picture]").unwrap()..]);
+            for text in [text, alone] {
+                let Some([double, single]) = differences(&text) else { return };
+                println!("κ at surfaces {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
+                assert!(double < 1e-9, "{dims:?}: {double:e}");
+            }
+        }
+    }
+}
+
+/// An iso-surface with a light of its own in a volume with another one.
+#[test]
+fn lights_of_surfaces() {
+    let shaded = "[shading]\nshininess = 8\n";
+    let tones = |at: [f64; 2]| format!("offset = 0.1\ntones = [[{}, \"#503020\"], [{}, \"#ffe0c0\"]]\n", at[0], at[1]);
+    let toon = format!("[shading]\nmodel = \"toon\"\n[shading.toon]\n{}", tones([0.0, 0.3]));
+    let silhouette = |of: &str, offset: f64| format!("[{of}.silhouette]\noffset = {offset}\n");
+    let surface = |look: &str| format!("[surface]\niso = 150\nlook = \"{look}\"\ncolor = \"#d8b4cc\"\n");
+    let in_tones = format!("{}[surface.toon]\n{}", surface("toon"), tones([0.0, 0.6]));
+    for (name, more) in [
+        ("toon in Phong", format!("{shaded}{in_tones}")),
+        ("Phong in toon", format!("{toon}{}", surface("phong"))),
+        ("toon in toon", format!("{toon}{in_tones}")),
+        ("Phong in Phong", format!("{shaded}{}", surface("phong"))),
+        ("toon in flat", in_tones.clone()),
+        ("white in toon", format!("{toon}{}", surface("white"))),
+        (
+            "silhouettes of both",
+            format!("{shaded}{}{}{}", silhouette("shading", 0.1), surface("phong"), silhouette("surface", 0.3)),
+        ),
+        ("silhouettes of the surface", format!("{shaded}{}{}", surface("white"), silhouette("surface", 0.3))),
+        ("silhouettes of the volume", format!("{shaded}{}{}", silhouette("shading", 0.3), surface("phong"))),
+        ("view opacity", format!("[shading]\nview_opacity = 0.5\n{in_tones}")),
+        (
+            "toon, cut",
+            format!(
+                "{shaded}{in_tones}[[clip]]\npoint = [4.3, 3.1, 4.2]\nnormal = [0.3, -0.3, 1]\nspace = \"index\"\ncap = \"#ff301080\"\n"
+            ),
+        ),
+    ] {
+        compare(name, &VOLUMES[1..2], &more);
+    }
+}

@@ -5,12 +5,17 @@ mod cost;
 mod double;
 mod field;
 mod formulas;
+mod lines;
 #[path = "sabotage/bounds.rs"]
 mod sabotage_of_bounds;
+#[path = "sabotage/lines.rs"]
+mod sabotage_of_lines;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
 mod sabotage_of_styles;
+#[path = "sabotage/surfaces.rs"]
+mod sabotage_of_surfaces;
 #[path = "sabotage/field.rs"]
 mod sabotage_of_the_field;
 mod styles;

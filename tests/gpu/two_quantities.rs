@@ -193,3 +193,39 @@ fn further_volumes() {
     let over = format!("over = [{{ volume = {:?} }}, {{ volume = {:?} }}]", paths[0], paths[1]);
     check("two volumes", &torus("", &format!("{over}\n{LOW}"), ""));
 }
+
+/// Numbers on a grid as a file, some of which are not numbers, from one of the first 53 on.
+pub(crate) fn holes(name: &str, first: usize, grid: &Grid) -> PathBuf {
+    let [nx, ny, nz] = grid.dims();
+    let (axes, origin) = (grid.axes(), grid.origin());
+    let vector = |v: DVec3| format!("({},{},{})", v.x, v.y, v.z);
+    let header = format!(
+        "NRRD0005\ntype: float\nendian: little\ndimension: 3\nspace dimension: 3\nsizes: {nx} {ny} {nz}\nencoding: raw\n\
+         space directions: {} {} {}\nspace origin: {}\n\n",
+        vector(axes.x_axis),
+        vector(axes.y_axis),
+        vector(axes.z_axis),
+        vector(origin)
+    );
+    let number = |i: usize| if i % 53 == first { f32::NAN } else { (i * 29 % 17) as f32 };
+    let bytes: Vec<u8> =
+        header.into_bytes().into_iter().chain((0..grid.len()).flat_map(|i| number(i).to_le_bytes())).collect();
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("gpu-holes-{name}.nrrd"));
+    fs::write(&path, bytes).unwrap();
+    path
+}
+
+/// Cells that touch a voxel without a number have the lowest value.
+#[test]
+fn further_volumes_with_holes() {
+    let same = Grid::with_spacing([32; 3], [1.0; 3]).unwrap();
+    let turned = DMat3::from_rotation_x(0.4) * DMat3::from_diagonal(DVec3::new(1.7, 1.3, 1.9));
+    let other = Grid::new([12, 15, 11], turned, DVec3::new(5.3, 6.4, 2.1)).unwrap();
+    let [a, b] = [("same", 7, &same), ("other", 20, &other)].map(|(name, first, grid)| holes(name, first, grid));
+    for (name, path) in [("holes, same grid", &a), ("holes, other grid", &b)] {
+        let over = format!("over = [\"value\", {{ volume = {path:?} }}]");
+        check(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 12.0])), ""));
+    }
+    let over = format!("over = [{{ volume = {a:?} }}, {{ volume = {b:?} }}]");
+    check("two volumes with holes", &torus("", &format!("{over}\n{LOW}"), ""));
+}

@@ -8,13 +8,22 @@ struct Tone {
     b: real,
 }
 
+struct Toon {
+    // L, towards the light.
+    light: vec3<real>,
+    offset: real,
+    // The tones, from the first one up to the end.
+    first: i32,
+    end: i32,
+}
+
 @group(1) @binding(6) var<storage, read> tones: array<Tone>;
 
 // A colour by the tone of a normal.
-fn toon(c_u: vec3<real>, n: vec3<real>) -> vec3<real> {
-    let x = dot(n, light()) + params.toon_offset;
-    var found = 0;
-    for (var i = 1; i < TONES; i++) {
+fn toon(c_u: vec3<real>, n: vec3<real>, lit: Toon) -> vec3<real> {
+    let x = dot(n, lit.light) + lit.offset;
+    var found = lit.first;
+    for (var i = lit.first + 1; i < lit.end; i++) {
         if (!(x > tones[i].at)) {
             break;
         }
@@ -23,7 +32,7 @@ fn toon(c_u: vec3<real>, n: vec3<real>) -> vec3<real> {
     return c_u * vec3<real>(tones[found].r, tones[found].g, tones[found].b);
 }
 
-// A sample without a normal has the tone of N = v ([PREC-3]).
-fn shade_toon(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
-    return Shaded(toon(shaded.rgb, select(ray.v, a.normal, a.has_normal)), shaded.alpha);
+// What has no normal has the tone of N = v ([PREC-3]).
+fn shaded_in_tones(ray: Ray, a: Attributes, shaded: Shaded, lit: Toon) -> Shaded {
+    return Shaded(toon(shaded.rgb, select(ray.v, a.normal, a.has_normal), lit), shaded.alpha);
 }

@@ -24,6 +24,7 @@ fn cast_ray(ray: Ray) -> Front {
             k = next - 1;
             continue;
         }
+        visited(sample);
         sample.s = value_at(sample.at);
         sample.place = node_place(locate_value(sample.s));
         if (!(sample.place.alpha_u > 0.0)) {
@@ -34,10 +35,7 @@ fn cast_ray(ray: Ray) -> Front {
             continue;
         }
         let attributes = measured_rest(ray, sample, first);
-        let shaded = shown(ray, sample, attributes);
-        let alpha = corrected(shaded.alpha, ratio * steps_of(k));
-        collect(ray, sample, attributes, alpha);
-        front = over(front, in_blend_space(shaded.rgb), alpha);
+        front = composite(front, ray, sample, attributes, shown(ray, sample, attributes), ratio);
         if (front.opacity >= params.stop_at) {
             is_closed = true;
             break;

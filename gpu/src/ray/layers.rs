@@ -12,11 +12,17 @@ const NOWHERE: f64 = 1e37;
 
 /// Adds the channels of layers, and the sums that they need.
 pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuError> {
-    if layers.iter().any(|&layer| layer != LayerKind::Beauty) {
+    if layers.iter().any(|&layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts)) {
         shader.add(&[EYE_NORMAL, module!("layers")]);
         shader.stages.begin_ray.push("begin_sums");
         shader.stages.collect.push("collect_layers");
         shader.stages.end_ray.push("pool_sums");
+    }
+    if layers.contains(&LayerKind::Counts) {
+        shader.add(&[module!("counts")]);
+        shader.stages.begin_ray.push("begin_count");
+        shader.stages.visited.push("count_sample");
+        shader.stages.end_ray.push("end_count");
     }
     for &layer in layers {
         let expressions = expressions(layer)?;
@@ -44,7 +50,7 @@ fn expressions(layer: LayerKind) -> Result<Vec<String>, GpuError> {
         LayerKind::FirstNormal => first("normal"),
         LayerKind::FirstCurvature => first("curvature"),
         LayerKind::FirstCurvatureAlongView => one("pixel_sums.first.curvature.z"),
-        LayerKind::Counts => return Err(GpuError::Missing { what: "counts of samples", key: "picture.layers" }),
+        LayerKind::Counts => one("real(samples_of_pixel)"),
         LayerKind::Halo(_) => return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" }),
     })
 }

@@ -2,6 +2,7 @@
 
 mod brick_distances;
 pub(crate) mod layers;
+pub(crate) mod lines;
 pub(crate) mod present;
 
 use crate::block::Block;
@@ -32,6 +33,14 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Resu
     add_view(&mut shader.block, shot, grid)
 }
 
+/// Steps from the eye to the anchor.
+fn anchor_steps(shot: &Shot, grid: &Grid) -> f64 {
+    let Shot { view, lattice, .. } = shot;
+    let centre = view.to_eye(grid.centre());
+    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
+    (away / lattice.step).floor() + 0.5
+}
+
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
 /// are of the volume's size.
 pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
@@ -40,13 +49,10 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    let centre = view.to_eye(grid.centre());
-    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
-    let anchor = (away / lattice.step).floor();
-    let steps = anchor + 0.5;
+    let steps = anchor_steps(shot, grid);
     let first = match lattice.first(view) {
         i64::MIN => -MOST_PLANES,
-        first => (first as f64 - anchor).clamp(-MOST_PLANES, MOST_PLANES),
+        first => (first as f64 - (steps - 0.5)).clamp(-MOST_PLANES, MOST_PLANES),
     };
     let inverse = grid.inverse_axes();
     let [low, high] = grid.index_box();
@@ -72,9 +78,14 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
 }
 
 /// Adds the loop over samples and what it calls.
-pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot) {
+pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, has_lines: bool) {
     let [object] = &shot.objects;
     shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
+    if has_lines {
+        lines::add(shader);
+    } else {
+        shader.add(&[module!("whole_sample")]);
+    }
     shader.block.number("reference_length", object.reference_length);
     shader.block.number("stop_at", shot.stop_at);
     match shot.blend_space {

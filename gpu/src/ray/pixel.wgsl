@@ -33,6 +33,7 @@ fn draw_pixel(pixel: vec2<i32>, n: i32) {
     }
     for (var part = first; part < end; part++) {
         let point = point_of(pixel, part, n);
+        begin_part(pixel, part, n);
         sum += over_background(cast_ray(ray_through(point.x, point.y)), behind);
         end_ray(part);
     }

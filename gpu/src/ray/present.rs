@@ -23,22 +23,13 @@ impl Presentation {
     pub(crate) fn new(
         gpu: &Gpu,
         precision: Precision,
-        [width, height]: [usize; 2],
+        size: [usize; 2],
         layers: &[LayerKind],
     ) -> Result<Self, GpuError> {
         let missing = GpuError::Missing { what: "a picture without a beauty in a viewer", key: "picture.layers" };
         let beauty = layers.iter().position(|&layer| layer == LayerKind::Beauty).ok_or(missing)?;
         let channels = |layers: &[LayerKind]| layers.iter().map(|layer| layer.channels().len()).sum::<usize>();
-        let (channels, first) = (channels(layers), channels(&layers[..beauty]));
-        let number = match precision {
-            Precision::Single => SINGLE,
-            Precision::Double => DOUBLE,
-        };
-        let text = format!(
-            "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\nconst CHANNELS = {channels};\n\
-             const BEAUTY = {first};\n{}",
-            number.text, PRESENT.text
-        );
+        let text = text(precision, size, channels(layers), channels(&layers[..beauty]));
         let target = wgpu::BindGroupLayoutEntry {
             binding: 1,
             visibility: wgpu::ShaderStages::COMPUTE,
@@ -53,7 +44,7 @@ impl Presentation {
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("present"), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
         let pipeline = pipeline(gpu, text, "present", &[&layout])?;
-        Ok(Self { pipeline, layout, size: [width, height] })
+        Ok(Self { pipeline, layout, size })
     }
 
     /// Writes the numbers of a picture into a texture.
@@ -76,4 +67,16 @@ impl Presentation {
             gpu.queue.submit([encoder.finish()]);
         })
     }
+}
+
+/// The shader for pixels of so many channels, with the beauty from channel `first` on.
+pub(crate) fn text(precision: Precision, [width, height]: [usize; 2], channels: usize, first: usize) -> String {
+    let number = match precision {
+        Precision::Single => SINGLE,
+        Precision::Double => DOUBLE,
+    };
+    format!(
+        "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\nconst CHANNELS = {channels};\nconst BEAUTY = {first};\n{}",
+        number.text, PRESENT.text
+    )
 }

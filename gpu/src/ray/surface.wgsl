@@ -3,10 +3,6 @@
 // The plane at which the ray meets the surface, counted from the anchor, with its fraction; NO_HIT if it does not.
 var<private> hit: real;
 
-fn find_surface(ray: Ray) {
-    hit = first_root(ray);
-}
-
 // The last sample before the surface.
 fn last_before_surface() -> i32 {
     return i32(ceil(hit)) - 1;

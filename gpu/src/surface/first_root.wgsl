@@ -15,9 +15,9 @@ fn side_of(over: real) -> real {
     return select(real(-1.0), real(1.0), over > 0.0);
 }
 
-// The t of the first root; NO_HIT if there is none.
-fn first_root(ray: Ray) -> real {
-    var walk = enter_box(ray, params.near_steps);
+// The t of the first root from `near` on; NO_HIT if there is none.
+fn first_root(ray: Ray, near: real) -> real {
+    var walk = enter_box(ray, near);
     if (walk.enters.t >= NO_HIT) {
         return NO_HIT;
     }

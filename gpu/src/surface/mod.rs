@@ -3,12 +3,12 @@
 use crate::field::Scales;
 use crate::shader::{Constant, Data, Shader, module};
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{Kernel, OpaqueSurface, Shot};
+use drypoint_scene::shot::{Kernel, OpaqueSurface, Outside, Shot};
 
 /// The largest number that kernels make of numbers in [−1, 1], and more.
 const LARGEST: f64 = 8.0;
 
-/// Adds the search for an iso-surface. `slack` is the rounding of a value.
+/// Adds the search for an iso-surface. `slack` is the rounding of a value. The mask, if there is one, is bound already.
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
@@ -16,6 +16,7 @@ pub(crate) fn add(
     measured: &Measured,
     scales: &Scales,
     slack: f64,
+    has_mask: bool,
 ) {
     let [object] = &shot.objects;
     shader.add(&[module!("traversal"), module!("first_root"), module!("bracket")]);
@@ -34,7 +35,19 @@ pub(crate) fn add(
         shader.bind(23, "the bricks of the surface", Data::Words(words));
         shader.stages.passed.push("pass_brick");
     }
+    if has_mask {
+        shader.add(&[module!("masked")]);
+        shader.stages.passed.push("pass_masked");
+    }
     shader.add(&[module!("../ray/surface")]);
+    if shot.clipping.planes.is_empty() {
+        shader.add(&[module!("whole")]);
+    } else {
+        shader.add(&[module!("clipped")]);
+        shader.add(&[if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
+        shader.constant("OUTSIDE_IS_LOW", Constant::Bool(object.reconstruction.outside == Outside::Low));
+        shader.stages.ends.push("cut_surface");
+    }
     let block = &mut shader.block;
     block.number("iso", scales.value(surface.iso).clamp(-LARGEST, LARGEST));
     block.vector("surface_rgb", surface.rgb.into());
@@ -45,8 +58,18 @@ pub(crate) fn add(
     shader.stages.ends.push("meet_surface");
 }
 
-/// Adds the mask, which is bound already.
-pub(crate) fn add_mask(shader: &mut Shader) {
-    shader.add(&[module!("masked")]);
-    shader.stages.passed.push("pass_masked");
+/// Adds κ along the ray, before cuts are measured.
+pub(crate) fn add_curvature_along_ray(shader: &mut Shader) {
+    shader.add(&[module!("curvature_along_ray")]);
+    shader.stages.measured.push("measure_along_ray_at_surface");
+}
+
+/// Adds the caps of cuts, after the light. `in_styles` says whether some are styles.
+pub(crate) fn add_caps(shader: &mut Shader, in_styles: bool) {
+    shader.add(&[module!("capped")]);
+    shader.stages.on_surface.push("cap_surface");
+    if in_styles {
+        shader.add(&[module!("capped_by_style")]);
+        shader.stages.on_surface.push("cap_surface_by_style");
+    }
 }

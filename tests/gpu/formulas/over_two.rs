@@ -230,10 +230,19 @@ fn values_of_further_volumes() {
     let flat = Grid::new([8, 9, 1], axes, DVec3::new(2.0, -0.5, 4.5)).unwrap();
     let mut next = random(43);
     let ground = Volume::new(data.clone(), Voxels::F64(vec![0.0; data.len()]), 1.0, 0.0).unwrap();
-    for grid in [&data, &other, &flat] {
+    for (grid, has_holes) in [&data, &other, &flat].into_iter().flat_map(|grid| [(grid, false), (grid, true)]) {
         let mut values: Vec<f64> = (0..grid.len()).map(|_| f64::from((2.0 * next() - 1.0) as f32)).collect();
         values[0] = -1.0;
-        let volume = Volume::new(grid.clone(), Voxels::F64(values.clone()), 1.0, 0.0).unwrap();
+        let stored = |(i, &value): (usize, &f64)| if has_holes && i % 37 == 5 { f64::NAN } else { value };
+        let stored = values.iter().enumerate().map(stored).collect();
+        let volume = Volume::new(grid.clone(), Voxels::F64(stored), 1.0, 0.0).unwrap();
+        let [nx, ny, nz] = grid.dims();
+        // Two words before the mask, as if another mask were there.
+        let mut mask = vec![0u32; 2 + grid.len().div_ceil(32)];
+        for i in 0..grid.len() {
+            let touches = volume.mask().is_some_and(|mask| mask.touches_cell([i % nx, i / nx % ny, i / (nx * ny)]));
+            mask[2 + i / 32] |= u32::from(touches) << (i % 32);
+        }
         let truth = OtherVolume::<f64>::new(&volume, &ground).unwrap();
         let map = OtherGrid::new(&data, grid);
         let (linear, offset) = map.map_or((DMat3::IDENTITY, DVec3::ZERO), |map| map.parts());
@@ -250,15 +259,24 @@ fn values_of_further_volumes() {
             map.is_none() || to_border(lo - OtherGrid::SLACK).min(to_border(hi + OtherGrid::SLACK)) > 1e-4
         };
         let table: Vec<[f64; 3]> = table.iter().copied().filter(away).collect();
-        let [nx, ny, nz] = grid.dims();
-        let value = format!("further_value(0, vec3({nx}, {ny}, {nz}), vec3<real>(x[0], x[1], x[2])) - 1.0");
+        let place = format!("0, vec3({nx}, {ny}, {nz})");
+        let value = match has_holes {
+            false => format!("further_value({place}, vec3<real>(x[0], x[1], x[2])) - 1.0"),
+            true => format!("further_value_unmasked({place}, 2, vec3<real>(x[0], x[1], x[2])) - 1.0"),
+        };
         let kernel = Kernel {
             modules: format!(
                 "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
-                modules(&["number/number", "transfer/over/grid_numbers", "transfer/over/further_volume"])
+                modules(&[
+                    "number/number",
+                    "transfer/over/grid_numbers",
+                    "transfer/over/further_volume",
+                    "transfer/over/further_masked"
+                ])
             ),
             params: &[("grid_slack", OtherGrid::SLACK)],
             lists: &[(16, &list)],
+            words: &[(17, &mask)],
             results: &[&value],
             ..Kernel::default()
         };

@@ -112,7 +112,7 @@ fn phong() {
         let kernel = Kernel {
             modules: format!(
                 "{whole}{TYPES}{PLACE}{}",
-                modules(&["number/number", "number/elementary", "shading/phong"])
+                modules(&["number/number", "number/elementary", "shading/phong", "shading/phong_of_samples"])
             ),
             params: &[("ambient", 0.25), ("diffuse", 0.5), ("specular", 0.375), ("shininess", shininess)],
             vectors: &[("light", light)],
@@ -147,7 +147,8 @@ fn tones_silhouettes_and_exponents() {
         [0.25 - 0.125, 0.625 - 0.125].iter().all(|step: &f64| (x - step).abs() > 1e-4) && (x * x - 0.25).abs() > 1e-4
     });
     let names = ["number/number", "number/elementary", "ray/opacity"];
-    let rooms = ["toon", "silhouette", "view_opacity"].map(|name| format!("interactive_volume_illustration/{name}"));
+    let rooms = ["toon", "toon_of_samples", "silhouette", "silhouette_of_samples", "view_opacity"]
+        .map(|name| format!("interactive_volume_illustration/{name}"));
     let names: Vec<&str> = names.into_iter().chain(rooms.iter().map(String::as_str)).collect();
     let kernel = Kernel {
         modules: format!("const TONES = 3;\n{TYPES}{PLACE}{}", modules(&names)),

@@ -86,17 +86,12 @@ fn faults_of_rays_and_light_are_noticed_at_their_stage() {
         (phong, "let through = 1.0 - front.opacity;", "let through = front.opacity;", "colour"),
         (phong, "if (front.opacity >= params.stop_at)", "if (front.opacity >= 0.7 * params.stop_at)", "opacity"),
         // Light.
-        (phong, "params.ambient + params.diffuse * n_l", "params.ambient - params.diffuse * n_l", "colour"),
-        (phong, "let n_l = dot(n, light());", "let n_l = dot(n, -light());", "colour"),
-        (phong, "pow_whole(n_h, u32(params.shininess))", "pow_whole(n_h, u32(params.shininess) + 1u)", "colour"),
+        (phong, "lit.ambient + lit.diffuse * n_l", "lit.ambient - lit.diffuse * n_l", "colour"),
+        (phong, "let n_l = dot(n, lit.light);", "let n_l = dot(n, -lit.light);", "colour"),
+        (phong, "pow_whole(n_h, u32(lit.shininess))", "pow_whole(n_h, u32(lit.shininess) + 1u)", "colour"),
         (toon, "if (!(x > tones[i].at))", "if (x > tones[i].at)", "colour"),
-        (toon, "dot(n, light()) + params.toon_offset", "dot(n, light()) + params.toon_offset + 0.1", "colour"),
-        (
-            toon,
-            "n_dot_v * n_dot_v + params.silhouette_offset <= 0.5",
-            "n_dot_v + params.silhouette_offset <= 0.5",
-            "colour",
-        ),
+        (toon, "dot(n, lit.light) + lit.offset", "dot(n, lit.light) + lit.offset + 0.1", "colour"),
+        (toon, "n_dot_v * n_dot_v + offset <= 0.5", "n_dot_v + offset <= 0.5", "colour"),
         (
             growing,
             "(1.0 / min(max(abs(n_dot_v), 0.015625), 1.0) - 1.0)",

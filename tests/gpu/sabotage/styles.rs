@@ -1,7 +1,7 @@
 //! Faults in the shaders of styles and of functions over two quantities, each of which parts the pictures.
 
 use crate::styles::scene;
-use crate::two_quantities::{ALONG, LOW, labels, styles, torus};
+use crate::two_quantities::{ALONG, LOW, holes, labels, styles, torus};
 use crate::{double, gpu};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
@@ -44,6 +44,11 @@ pub(crate) fn faults() -> Vec<Fault> {
         let grid = Grid::new([12, 15, 11], axes, DVec3::new(5.3, 6.4, 2.1)).unwrap();
         let path = labels("fault-further", &grid, "int16", 120);
         over(&format!("[\"value\", {{ volume = {path:?} }}]"), &styles([1.5, 4.0, 60.0]))
+    };
+    let holed = || {
+        let grid = Grid::with_spacing([32; 3], [1.0; 3]).unwrap();
+        let [a, b] = [("fault-a", 7), ("fault-b", 20)].map(|(name, first)| holes(name, first, &grid));
+        over(&format!("[{{ volume = {a:?} }}, {{ volume = {b:?} }}]"), LOW)
     };
     let points = "[{ distance = [20.5, 9.25, 14.75] }, { distance = [3.5, 20.25, 12.75] }]";
     const STYLES: &str = "style_transfer_functions";
@@ -231,6 +236,27 @@ pub(crate) fn faults() -> Vec<Fault> {
             "style coordinate",
         ),
         fault(in_two("grid_numbers"), "min(cell.x + 1, dims.x - 1)", "cell.x", further(), "style coordinate"),
+        fault(
+            in_two("further_masked"),
+            "(c.z * dims.y + c.y) * dims.x + c.x",
+            "(c.z * dims.y + c.y) * dims.x + c.x + 1",
+            holed(),
+            "style coordinate",
+        ),
+        fault(
+            in_two("further_masked"),
+            "further_masks[mask + (i >> 5u)]",
+            "further_masks[i >> 5u]",
+            holed(),
+            "style coordinate",
+        ),
+        fault(
+            in_two("further_masked"),
+            "further_masks[mask + (i >> 5u)] & (1u << u32(i & 31))) != 0u",
+            "further_masks[mask + (i >> 5u)] & (1u << u32(i & 31))) == 0u",
+            holed(),
+            "style coordinate",
+        ),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Transfer functions over two quantities ([STF-4]).
 
-use crate::field::Scales;
+use crate::field::{Scales, mask};
 use crate::number::NUMBER;
 use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Inputs};
@@ -52,20 +52,28 @@ pub(crate) fn add(
     shader.constant("DOWN_IS_ID", Constant::Bool(rows.over[1].is_id()));
     shader.bind(13, "the transfer function's places", Data::Reals(numbers.concat()));
     shader.bind(14, "the transfer function's rows", Data::Words(words.concat()));
-    let mut numbers = Vec::new();
+    let (mut numbers, mut masks) = (Vec::new(), Vec::new());
     for axis in 0..2 {
         let expression = match (&rows.over[axis], &further[axis]) {
             (Axis::DistanceToLabel(_), _) => {
                 let distances = inputs.measured.label_distances[axis].as_ref().ok_or(GpuError::Material)?;
-                let call = call("on_grid", numbers.len(), inputs.volume.dims(), "at");
+                let call = call("on_grid", numbers.len(), inputs.volume.dims(), "sample.at");
                 numbers.extend_from_slice(distances);
                 call
             }
             (Axis::Volume(_), Some(further)) => {
-                let call = call("further_value", numbers.len(), further.volume.dims(), "position");
-                further.append(&mut numbers, inputs)?;
+                let (first, dims) = (numbers.len(), further.volume.dims());
+                further.append(&mut numbers, inputs);
                 shader.add(&[module!("grid_numbers"), module!("further_volume")]);
-                call
+                match further.volume.mask() {
+                    None => call("further_value", first, dims, "sample.position"),
+                    Some(mask) => {
+                        let first_word = masks.len();
+                        masks.extend(mask::words(mask, dims));
+                        shader.add(&[module!("further_masked")]);
+                        call("further_value_unmasked", first, dims, &format!("{first_word}, sample.position"))
+                    }
+                }
             }
             _ => coordinate(shader, axis, rows, shot, inputs)?,
         };
@@ -75,6 +83,9 @@ pub(crate) fn add(
         shader.add(&[module!("grid_numbers")]);
         shader.block.number("grid_slack", OtherGrid::SLACK);
         shader.bind(16, "numbers of the transfer function's quantities", Data::Reals(numbers));
+    }
+    if !masks.is_empty() {
+        shader.bind(17, "the masks of further volumes", Data::Words(masks));
     }
     shader.stages.is_seen.push("is_in_plane");
     let (first, _) = object.query.split(&rows.over);
@@ -87,7 +98,7 @@ pub(crate) fn add(
 fn is_of(stage: &str, query: SampleQuery) -> bool {
     match stage {
         "measure_gradient" | "measure_magnitude" => query.gradient,
-        "measure_along_ray" => query.kappa == KappaSource::AlongRay,
+        "measure_along_ray" | "measure_along_ray_at_surface" => query.kappa == KappaSource::AlongRay,
         // Everything that needs a Hessian.
         _ => query.hessian,
     }
@@ -113,12 +124,8 @@ impl<'a> Further<'a> {
     }
 
     /// Appends the map from the data's index space, row by row, and the voxels.
-    fn append(&self, numbers: &mut Vec<f64>, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+    fn append(&self, numbers: &mut Vec<f64>, inputs: &Inputs<'_>) {
         let Self { volume, .. } = self;
-        if volume.mask().is_some() {
-            let what = "further volumes with values that are not numbers";
-            return Err(GpuError::Missing { what, key: "transfer.over" });
-        }
         let own = Anatomy::between(volume.grid(), volume.anatomy(), inputs.volume.anatomy());
         let map = OtherGrid::new(inputs.volume.grid(), &own);
         let (linear, offset) = map.map_or((DMat3::IDENTITY, DVec3::ZERO), |map| map.parts());
@@ -128,13 +135,12 @@ impl<'a> Further<'a> {
         }
         let value = |i: usize| volume.slope() * volume.voxels().get(i) + volume.intercept();
         numbers.extend((0..volume.grid().len()).map(|i| self.number(value(i))));
-        Ok(())
     }
 }
 
-/// The expression of a coordinate that is interpolated from numbers on a grid.
-fn call(function: &str, first: usize, [x, y, z]: [usize; 3], of: &str) -> String {
-    format!("coordinate({function}({first}, vec3({x}, {y}, {z}), sample.{of}))")
+/// The expression of a coordinate that is interpolated from numbers on a grid. `more` are the arguments behind its size.
+fn call(function: &str, first: usize, [x, y, z]: [usize; 3], more: &str) -> String {
+    format!("coordinate({function}({first}, vec3({x}, {y}, {z}), {more}))")
 }
 
 /// The expression of a sample's coordinate along an axis, and what it calls.

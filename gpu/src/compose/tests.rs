@@ -1,0 +1,369 @@
+//! Shaders of all effects and their pairs, parsed and validated without an adapter ([GPU-4]).
+
+use super::shader;
+use crate::renderer::drawn_layers;
+use crate::{GpuError, Inputs, Interpolation, Precision};
+use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::file::{Overrides, parse};
+use drypoint_scene::measured::{Measured, PaddedNumbers};
+use drypoint_scene::plan::Plan;
+use drypoint_scene::shot::{Axis, Shot, VolumeFacts};
+use drypoint_scene::space::Grid;
+use drypoint_scene::style::Style;
+use drypoint_scene::tables::{Iso, Scene};
+use drypoint_scene::transfer::Function;
+use drypoint_scene::view::View;
+use drypoint_scene::volume::labels::LabelVolume;
+use drypoint_scene::volume::{Bricks, Volume, Voxels};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use wgpu::naga;
+
+/// A choice among alternatives: its name, and what each adds to a scene, by table.
+type Choice = (&'static str, &'static [&'static [(&'static str, &'static str)]]);
+
+const RED: &str = "kind = \"regular\"\n\
+    nodes = [{ at = 1, color = \"#ff0000\", opacity = 0 }, { at = 9, color = \"#00ff00\", opacity = 0.5 }]";
+/// Two styles, and three nodes of them.
+const WAX: &str = "nodes = [{ at = 1, style = \"wax\", opacity = 0 }, { at = 9, style = \"ink\", opacity = 0.5 }]";
+const WAX_TWICE: &str = "nodes = [{ at = 1, style = \"wax\", opacity = 0 }, \
+    { at = 5, style = \"ink\", opacity = 0.5 }, { at = 9, style = \"wax\", opacity = 0.7 }]";
+/// Rows of functions over two quantities.
+const ROWS: &str = "rows = [{ at = 1, nodes = [{ at = 1, style = \"wax\", opacity = 0.1 }] }, \
+    { at = 2, nodes = [{ at = 2, style = \"ink\", opacity = 0.4 }] }]";
+const COLORED_ROWS: &str = "kind = \"regular\"\n\
+    rows = [{ at = 1, nodes = [{ at = 1, color = \"#ff0000\", opacity = 0.1 }] }, \
+    { at = 2, nodes = [{ at = 2, color = \"#00ff00\", opacity = 0.4 }] }]";
+
+/// The choices of a scene.
+const CHOICES: &[Choice] = &[
+    (
+        "kernel",
+        &[
+            &[("sampling", "kernel = \"trilinear\"")],
+            &[("sampling", "kernel = \"bspline\"")],
+            &[("sampling", "kernel = \"bspline-smooth\"")],
+            &[("sampling", "kernel = \"bspline5\"")],
+            &[("sampling", "kernel = \"catmull-rom\"")],
+        ],
+    ),
+    (
+        "gradient",
+        &[
+            &[("sampling", "gradient = \"analytic\"")],
+            &[("sampling", "gradient = \"central\"")],
+            &[("sampling", "gradient = \"sobel\"")],
+            &[("sampling", "gradient = \"regression\"")],
+        ],
+    ),
+    (
+        "Hessian",
+        &[
+            &[("sampling", "hessian = \"auto\"")],
+            &[("sampling", "hessian = \"analytic\"")],
+            &[("sampling", "hessian = \"central\"")],
+            &[("sampling", "hessian = \"gaussian\"")],
+        ],
+    ),
+    ("planes", &[&[], &[("sampling", "step_along = \"ray\"")]]),
+    ("normal", &[&[], &[("sampling", "normal = \"facing\"")], &[("sampling", "normal = \"gradient\"")]]),
+    ("skipping", &[&[], &[("sampling", "skip_empty = false")]]),
+    ("outside", &[&[], &[("volume", "outside = \"high\"")]]),
+    ("camera", &[&[], &[("camera", "projection = \"orthographic\"")]]),
+    ("rays", &[&[("picture", "samples = 1")], &[("picture", "samples = 2")], &[("picture", "samples = \"auto\"")]]),
+    ("blending", &[&[], &[("picture", "blend_space = \"srgb\"")]]),
+    ("background", &[&[], &[("picture", "background = \"#203040\"")], &[("picture", "background = \"none\"")]]),
+    (
+        "layers",
+        &[
+            &[],
+            &[("picture", "layers = [\"counts\", \"Z\"]")],
+            &[("picture", "layers = [\"beauty\", \"normal\", \"depth\", \"first\", \"first.normal\", \"gradient\"]")],
+            &[("picture", "layers = [\"beauty\", \"curvature\", \"first.curvature\"]")],
+            &[("picture", "layers = [\"beauty\", \"curvature.KV\", \"first.curvature.KV\"]")],
+        ],
+    ),
+    (
+        "material",
+        &[
+            // Without a function: an iso-surface alone.
+            &[],
+            &[("transfer", RED)],
+            &[("transfer", RED), ("transfer", "table = 16"), ("shading", "")],
+            &[("transfer", RED), ("shading", "shininess = 7.5\nview_opacity = 0.5")],
+            &[("transfer", RED), ("shading", "model = \"toon\""), ("shading.silhouette", "")],
+            &[("transfer", COLORED_ROWS), ("transfer", "over = [\"value\", \"gradient-magnitude\"]")],
+            &[("transfer", COLORED_ROWS), ("transfer", "over = [\"k1\", \"mean\"]"), ("shading", "")],
+            &[("transfer", WAX)],
+            &[("transfer", WAX_TWICE)],
+            &[("transfer", WAX), ("transfer", "table = 16"), ("transfer", "sphere_frame = \"view\"")],
+            &[("transfer", WAX), ("contours", "thickness = \"1 voxel\"\nfade = [0.1, 0.4]"), ("style_mipmaps", "")],
+            &[("transfer", WAX), ("contours", "kappa = \"exact\""), ("transfer", "mix = \"printed\"")],
+            &[
+                ("transfer", WAX),
+                ("contours", "kappa = \"none\"\nthreshold = 0.3"),
+                ("transfer", "transparency = \"plain\""),
+            ],
+            &[("transfer", ROWS), ("transfer", "over = [\"value\", { distance = [1, 2, 3] }]"), ("contours", "")],
+            &[("transfer", ROWS), ("transfer", "over = [\"value\", \"label\"]"), ("volume", "labels = \"l.nrrd\"")],
+            &[
+                ("transfer", ROWS),
+                ("transfer", "over = [\"label\", { volume = \"v.nrrd\" }]"),
+                ("volume", "labels = \"l.nrrd\"\nlabel_lookup = \"smooth\""),
+            ],
+            &[("transfer", ROWS), ("transfer", "over = [{ volume = \"v.nrrd\" }, { volume = \"w.nrrd\" }]")],
+            &[
+                ("transfer", ROWS),
+                ("transfer", "over = [\"kv\", { distance_to_label = 1 }]"),
+                ("volume", "labels = \"l.nrrd\""),
+            ],
+        ],
+    ),
+    (
+        "surface",
+        &[
+            &[],
+            &[("surface", "iso = 5\nlook = \"white\"")],
+            &[("surface", "iso = 5\nlook = \"phong\"")],
+            &[("surface", "iso = 5\nlook = \"toon\""), ("surface.silhouette", "")],
+        ],
+    ),
+    (
+        "cuts",
+        &[
+            &[],
+            &[("[clip]", "point = [3, 3, 3]\nnormal = [1, 1, 0]\nspace = \"index\"")],
+            &[("[clip]", "box = [[1, 4], [1, 5], [2, 3]]\nspace = \"index\"\ncap = \"#ff000080\"")],
+            &[("[clip]", "point = [3, 3, 3]\nnormal = [1, 1, 0]\nspace = \"index\"\nstyle = \"glass\"")],
+        ],
+    ),
+    // Not of the scene's text.
+    ("picture behind", &[&[], &[]]),
+    ("labels elsewhere", &[&[], &[]]),
+    ("mask", &[&[], &[]]),
+    ("lines", &[&[], &[]]),
+    ("number", &[&[], &[]]),
+    ("texture unit", &[&[], &[]]),
+];
+
+/// The place of a choice.
+fn place(name: &str) -> usize {
+    CHOICES.iter().position(|choice| choice.0 == name).unwrap()
+}
+
+/// The text of a scene with one alternative of each choice.
+fn text(chosen: &[usize]) -> String {
+    let mut tables: Vec<(&str, Vec<&str>)> = vec![("volume", vec!["phantom = { name = \"torus\", size = 8 }"])];
+    for (alternatives, &i) in CHOICES.iter().map(|choice| choice.1).zip(chosen) {
+        for &(table, keys) in alternatives[i] {
+            match tables.iter_mut().find(|(name, _)| *name == table) {
+                Some((_, all)) => all.push(keys),
+                None => tables.push((table, vec![keys])),
+            }
+        }
+    }
+    let mut text = String::from("drypoint = 1\n");
+    for (table, keys) in tables {
+        text.push_str(&format!("[{table}]\n{}\n", keys.join("\n")));
+    }
+    text
+}
+
+/// Voxels on a grid, one of which may be no number.
+fn volume(is_masked: bool) -> Volume {
+    let grid = Grid::with_spacing([9, 8, 7], [1.0, 1.5, 2.0]).unwrap();
+    let mut values: Vec<f32> = (0..grid.len()).map(|i| (i % 11) as f32).collect();
+    if is_masked {
+        values[100] = f32::NAN;
+    }
+    Volume::new(grid, Voxels::F32(values), 1.0, 0.0).unwrap()
+}
+
+/// Measured facts that fit the volume in their sizes alone.
+fn measured(shot: &Shot, volume: &Volume) -> Measured {
+    let numbers = || {
+        let dims = volume.dims().map(|n| n + 4);
+        PaddedNumbers { data: vec![1.0; dims.iter().product()], dims, pad: 2 }
+    };
+    let [object] = &shot.objects;
+    let bricks = Bricks::new(volume.dims(), |_| vec![[0.0, 10.0]; 2]);
+    Measured {
+        numbers: numbers(),
+        voxels: Some(numbers()),
+        smoothed: Some(numbers()),
+        regression: Some(vec![0.0; 64 * 3 * 27]),
+        base: 0.0,
+        gradient_range: object.gradient_range.map(|_| [0.0, 1.0]),
+        gradient_scale: 1.0,
+        label_distances: [0, 1].map(|_| Some(vec![0.0; volume.grid().len()])),
+        bricks: object.skip_empty.then_some(bricks),
+    }
+}
+
+/// Inputs of a scene beside its volume.
+#[derive(Clone, Copy, Debug)]
+struct Beside {
+    /// Whether a picture lies behind the volume.
+    has_picture: bool,
+    /// Whether labels have a grid of their own.
+    labels_are_elsewhere: bool,
+    has_lines: bool,
+    interpolation: Interpolation,
+}
+
+/// The text of a scene's shader for a volume; none if the scene has an effect that no module draws.
+fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision) -> Result<Option<String>, String> {
+    let Beside { has_picture, labels_are_elsewhere, has_lines, interpolation } = beside;
+    let mut scene = scene.clone();
+    if let Some(surface) = scene.surface.as_mut().filter(|surface| surface.iso == Iso::Auto) {
+        surface.iso = Iso::Value(5.0);
+    }
+    let function = match &scene.transfer {
+        Some(transfer) => Function::new(transfer, [0.0, 10.0], volume, &|_| Some(1)).map_err(|e| format!("{e:?}"))?,
+        None => Some(Function::nothing()),
+    };
+    let function = Arc::new(function.ok_or("the function is to be found")?);
+    let view = View::new(&scene.camera, volume.grid(), [16, 12]).map_err(|e| e.to_string())?;
+    let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
+    let shot = Shot::resolve(&scene, &Plan::new(&scene), facts, function, view).map_err(|e| e.to_string())?;
+    let style = |name: &String| Style::from_straight(name, 2, &[[0.5; 4]; 4], true).unwrap();
+    let of_function: &[String] =
+        if let Function::Style { names, .. } = &*shot.objects[0].function { names } else { &[] };
+    let styles: Vec<Style> = of_function.iter().chain(&shot.clipping.styles).map(style).collect();
+    let of_labels = Grid::with_spacing([4, 3, 2], [2.0; 3]).unwrap();
+    let of_labels = if labels_are_elsewhere { &of_labels } else { volume.grid() };
+    let labels = LabelVolume::new(&ids(of_labels)).map_err(|e| e.to_string())?;
+    let further = [0, 1].map(|axis| {
+        let over = shot.objects[0].function.nodes().2.map(|rows| &rows.over[axis]);
+        matches!(over, Some(Axis::Volume(_))).then_some(volume)
+    });
+    let measured = measured(&shot, volume);
+    let background = if has_picture { Backdrop::Pixels(&[[0.5; 4]; 16 * 12]) } else { Backdrop::Color([0.5; 4]) };
+    let inputs =
+        Inputs { volume, measured: &measured, labels: Some(&labels), further, styles: &styles, background, has_lines };
+    match shader(&shot, &drawn_layers(&shot), &inputs, precision, interpolation) {
+        Ok((shader, _)) => Ok(Some(shader.text(precision))),
+        Err(GpuError::Missing { .. }) => Ok(None),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Ids on a grid.
+fn ids(grid: &Grid) -> Volume {
+    let ids = (0..grid.len()).map(|i| (i % 3) as u8).collect();
+    Volume::new(grid.clone(), Voxels::U8(ids), 1.0, 0.0).unwrap()
+}
+
+/// Parses and validates a text, with numbers of 64 bits where it has them.
+fn validate(text: &str) -> Result<(), String> {
+    let module = naga::front::wgsl::parse_str(text).map_err(|error| error.emit_to_string(text))?;
+    let mut validator =
+        naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::FLOAT64);
+    validator.validate(&module).map(drop).map_err(|error| error.emit_to_string(text))
+}
+
+/// The files below a folder of the crate with a suffix.
+fn files(folder: impl AsRef<Path>, suffix: &str) -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let mut found: Vec<PathBuf> = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(path, suffix));
+        } else if path.extension().is_some_and(|found| found == suffix) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The modules of the crate, by their files.
+fn modules() -> Vec<(PathBuf, String)> {
+    files("src", "wgsl").into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
+}
+
+/// Each pair of alternatives that a scene can have occurs in one of the shaders, and so does each module; that for viewers
+/// stands alone.
+#[test]
+fn every_pair_of_effects_has_a_valid_shader() {
+    let sizes: Vec<usize> = CHOICES.iter().map(|(_, alternatives)| alternatives.len()).collect();
+    let mut modules = modules();
+    for precision in [Precision::Single, Precision::Double] {
+        let shader = crate::ray::present::text(precision, [16, 12], 5, 1);
+        validate(&shader).unwrap_or_else(|error| panic!("{error}"));
+        modules.retain(|(_, module)| !shader.contains(module));
+    }
+    let mut seen = BTreeSet::new();
+    let [mut state, mut valid] = [1u64, 0];
+    // Scenes at random, of which those with a new pair are kept.
+    for _ in 0..20_000 {
+        let chosen: Vec<usize> = sizes
+            .iter()
+            .map(|&size| {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                (state >> 33) as usize % size
+            })
+            .collect();
+        let pairs: Vec<[usize; 4]> = (0..chosen.len())
+            .flat_map(|a| (0..a).map(move |b| (a, b)))
+            .map(|(a, b)| [a, chosen[a], b, chosen[b]])
+            .collect();
+        if pairs.iter().all(|pair| seen.contains(pair)) {
+            continue;
+        }
+        let is = |name: &str| chosen[place(name)] == 1;
+        let precision = if is("number") { Precision::Double } else { Precision::Single };
+        let beside = Beside {
+            has_picture: is("picture behind"),
+            labels_are_elsewhere: is("labels elsewhere"),
+            has_lines: is("lines"),
+            interpolation: if is("texture unit") { Interpolation::Fast } else { Interpolation::Exact },
+        };
+        let text = text(&chosen);
+        let Ok(scene) = parse(&text, Path::new("scene.toml"), &Overrides::default()) else { continue };
+        let Ok(Some(shader)) = composed(&scene, &volume(is("mask")), beside, precision) else { continue };
+        validate(&shader).unwrap_or_else(|error| panic!("{text}\n{error}"));
+        modules.retain(|(_, module)| !shader.contains(module));
+        valid += 1;
+        seen.extend(pairs);
+    }
+    // Pairs without a scene: analytic Hessians of kernels that are not smooth enough, and neither a function nor a surface.
+    let impossible = [("Hessian", 1, "kernel", 0), ("Hessian", 1, "kernel", 4), ("surface", 0, "material", 0)];
+    let impossible = impossible.map(|(a, i, b, j)| [place(a), i, place(b), j]);
+    let all = (0..sizes.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
+    let all = all
+        .flat_map(|(a, b)| (0..sizes[a]).map(move |i| (a, i, b)))
+        .flat_map(|(a, i, b)| (0..sizes[b]).map(move |j| [a, i, b, j]));
+    let missing: Vec<_> = all.filter(|pair| !seen.contains(pair)).collect();
+    println!("{valid} shaders with {} pairs of alternatives", seen.len());
+    assert_eq!(missing, impossible);
+    let unused: Vec<_> = modules.iter().map(|(path, _)| path).collect();
+    assert!(unused.is_empty(), "no scene has {unused:?}");
+}
+
+/// Scenes with a function and a surface of their own, and without halos.
+#[test]
+fn the_scenes_of_the_repository_have_valid_shaders() {
+    let mut valid = Vec::new();
+    for path in files("../data/scenes", "toml") {
+        let text = fs::read_to_string(&path).unwrap();
+        let scene = parse(&text, &path, &Overrides::default()).unwrap_or_else(|error| panic!("{error}"));
+        if !scene.draws_volume() {
+            continue;
+        }
+        let interpolation = Interpolation::Exact;
+        let beside = Beside { has_picture: false, labels_are_elsewhere: false, has_lines: true, interpolation };
+        for precision in [Precision::Single, Precision::Double] {
+            // A function or a focus that is found in the data has no shot yet.
+            if let Ok(Some(shader)) = composed(&scene, &volume(false), beside, precision) {
+                validate(&shader).unwrap_or_else(|error| panic!("{}\n{error}", path.display()));
+                valid.push(path.clone());
+            }
+        }
+    }
+    println!("{} shaders", valid.len());
+    assert!(valid.len() > 60, "{valid:?}");
+}

@@ -1,0 +1,5 @@
+// Samples in tones (4.4, [HATCH-15]).
+
+fn shade_toon(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
+    return shaded_in_tones(ray, a, shaded, Toon(light(), params.toon_offset, 0, TONES));
+}
