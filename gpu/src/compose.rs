@@ -5,7 +5,7 @@ use crate::field::Scales;
 use crate::shader::{Constant, Shader};
 use crate::{
     GpuError, Inputs, Precision, field, interactive_volume_illustration, ray, shading, style_transfer_functions,
-    surface, transfer,
+    surface, transfer, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
@@ -54,7 +54,9 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    let query = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
+    let own = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
+    let has_halos = !shot.halos.list.is_empty();
+    let query = if has_halos { own.and(shot.halos.query) } else { own };
     if query.gradient {
         field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
         ray::add_gradient(&mut shader, measured, &scales);
@@ -100,6 +102,9 @@ pub(crate) fn shader(
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
     ray::layers::add(&mut shader, layers)?;
+    if has_halos {
+        volumetric_halos::add(&mut shader, shot, own, inputs, &scales, precision)?;
+    }
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))
 }
@@ -129,7 +134,6 @@ fn light_of(lit: &Illumination) -> Option<DVec3> {
 /// Refuses what no module draws.
 fn refuse(shot: &Shot) -> Result<(), GpuError> {
     let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
-    missing(!shot.halos.list.is_empty(), "halos", "halo")?;
     let is_cut = shot.surface.is_some() && !shot.clipping.planes.is_empty();
     missing(is_cut, "iso-surfaces that planes cut", "clip")?;
     let along_ray = |surface: &OpaqueSurface| surface.query.and(surface.first).kappa == KappaSource::AlongRay;

@@ -26,6 +26,7 @@ mod style_transfer_functions;
 mod surface;
 mod transfer;
 mod volume;
+mod volumetric_halos;
 
 pub use device::{Gpu, Precision};
 pub use error::GpuError;

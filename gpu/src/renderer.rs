@@ -4,6 +4,7 @@ use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::field::Scales;
 use crate::ray::layers::in_picture_units;
 use crate::shader::{Data, Shader};
+use crate::volumetric_halos::planes::HaloPlanes;
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::measured::Measured;
@@ -42,13 +43,21 @@ pub struct Inputs<'a> {
     pub background: Backdrop<'a>,
 }
 
+/// The order in which rays are drawn.
+enum Rays {
+    /// Each ray alone, band by band.
+    Alone(Pass),
+    /// All rays together, plane by plane.
+    Together(Box<HaloPlanes>),
+}
+
 /// A shot that is ready to be drawn any number of times.
 pub struct Renderer<'g> {
     gpu: &'g Gpu,
     precision: Precision,
     shader: Shader,
     scales: Scales,
-    draw: Pass,
+    rays: Rays,
     /// Further rays at edges; none: no pixel is refined.
     refinement: Option<Pass>,
     params: wgpu::Buffer,
@@ -91,7 +100,12 @@ impl<'g> Renderer<'g> {
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
         let pass = |entry_point, lists| Pass::new(gpu, &text, entry_point, lists, &data_layout);
-        let draw = pass("draw", 1)?;
+        let rays = if shot.halos.list.is_empty() {
+            Rays::Alone(pass("draw", 1)?)
+        } else {
+            let (grid, shader) = (inputs.volume.grid(), (&shader, text.as_str()));
+            Rays::Together(Box::new(HaloPlanes::new(gpu, shot, grid, shader, &data_layout, precision)?))
+        };
         let refinement = shot.refine_above.map(|_| pass("refine", 2)).transpose()?;
         let params = buffer(
             gpu,
@@ -99,14 +113,14 @@ impl<'g> Renderer<'g> {
             &shader.block.bytes(precision),
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
         )?;
-        let rays = (shot.rays_across * shot.rays_across) as f64;
+        let rays_a_pixel = (shot.rays_across * shot.rays_across) as f64;
         let planes = shot.lattice.planes(&shot.view, inputs.volume.grid());
         Ok(Self {
             gpu,
             precision,
             shader,
             scales,
-            draw,
+            rays,
             refinement,
             params,
             data,
@@ -114,7 +128,7 @@ impl<'g> Renderer<'g> {
             layers,
             size: shot.view.size,
             rays_across: shot.rays_across,
-            samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
+            samples_a_row: shot.view.size[0] as f64 * rays_a_pixel * planes.max(1.0),
         })
     }
 
@@ -124,6 +138,9 @@ impl<'g> Renderer<'g> {
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         self.shader.block.update(&compose::camera(shot, grid)?);
+        if let Rays::Together(planes) = &mut self.rays {
+            planes.turn(shot, grid);
+        }
         Ok(())
     }
 
@@ -179,9 +196,15 @@ impl<'g> Renderer<'g> {
     ) -> Result<(), GpuError> {
         let (gpu, [width, height]) = (self.gpu, self.size);
         let channels: usize = self.layers.iter().map(|layer| layer.channels().len()).sum();
-        let (pass, samples, parts) = match (&self.refinement, first_picture) {
-            (Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row, 9),
-            _ => (&self.draw, self.samples_a_row, self.rays_across * self.rays_across),
+        let (pass, samples, parts) = match (&self.rays, &self.refinement, first_picture) {
+            (Rays::Together(planes), ..) => {
+                gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
+                let numbers = self.precision.numbers(&planes.draw(gpu, &self.params, &self.data, progress)?);
+                numbers.chunks_exact(channels).enumerate().for_each(|(at, pixel)| take(at, pixel));
+                return Ok(());
+            }
+            (_, Some(pass), Some(_)) => (pass, 9.0 * self.samples_a_row, 9),
+            (Rays::Alone(pass), ..) => (pass, self.samples_a_row, self.rays_across * self.rays_across),
         };
         // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
         let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };

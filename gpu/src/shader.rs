@@ -1,7 +1,7 @@
 //! A shader put together from modules.
 
-use crate::Precision;
 use crate::block::Block;
+use crate::{Precision, volumetric_halos};
 use std::fmt::Write;
 
 /// A WGSL file.
@@ -80,6 +80,8 @@ pub(crate) struct Stages {
     pub(crate) end_ray: Vec<&'static str>,
     /// Expressions for the channels of a pixel, in their order; `mean` is the beauty.
     pub(crate) channels: Vec<String>,
+    /// Those of halos; none: there are none.
+    pub(crate) halos: Option<volumetric_halos::Stages>,
 }
 
 /// A shader and what it reads.
@@ -130,6 +132,7 @@ impl Shader {
             let _ = write!(text, "\n{}", module.text);
         }
         text.push_str(&self.stages.wgsl());
+        text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
         text
     }
 }

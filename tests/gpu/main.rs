@@ -4,6 +4,7 @@
 mod double;
 mod field;
 mod formulas;
+mod halos;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]

@@ -4,11 +4,37 @@ use crate::GpuError;
 use crate::field::Scales;
 use crate::ray::EYE_NORMAL;
 use crate::shader::{Shader, module};
+use crate::volumetric_halos::Stages;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
 
 /// From here on a depth stands for none.
 const NOWHERE: f64 = 1e37;
+
+/// The sums along a ray, from `begin_sums` on.
+pub(crate) const KEPT: [&str; 21] = [
+    "ray_sums.opacity",
+    "ray_sums.weight",
+    "ray_sums.first.depth",
+    "ray_sums.first.value",
+    "ray_sums.first.normal.x",
+    "ray_sums.first.normal.y",
+    "ray_sums.first.normal.z",
+    "ray_sums.first.curvature.x",
+    "ray_sums.first.curvature.y",
+    "ray_sums.first.curvature.z",
+    "ray_sums.half",
+    "ray_sums.depth",
+    "ray_sums.normal.x",
+    "ray_sums.normal.y",
+    "ray_sums.normal.z",
+    "ray_sums.gradient.x",
+    "ray_sums.gradient.y",
+    "ray_sums.gradient.z",
+    "ray_sums.curvature.x",
+    "ray_sums.curvature.y",
+    "ray_sums.curvature.z",
+];
 
 /// Adds the channels of layers, and the sums that they need.
 pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuError> {
@@ -39,9 +65,7 @@ pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuEr
             LayerKind::Counts => {
                 return Err(GpuError::Missing { what: "counts of samples", key: "picture.layers" });
             }
-            LayerKind::Halo(_) => {
-                return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" });
-            }
+            LayerKind::Halo(halo) => channels.push(Stages::intensity(halo)),
         }
     }
     Ok(())

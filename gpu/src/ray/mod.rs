@@ -30,6 +30,14 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Resu
     add_view(&mut shader.block, shot, grid)
 }
 
+/// The plane in the middle of the volume, counted from the eye, from which shaders count planes.
+pub(crate) fn anchor(shot: &Shot, grid: &Grid) -> f64 {
+    let Shot { view, lattice, .. } = shot;
+    let centre = view.to_eye(grid.centre());
+    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
+    (away / lattice.step).floor()
+}
+
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
 /// are of the volume's size.
 pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
@@ -38,9 +46,7 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    let centre = view.to_eye(grid.centre());
-    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
-    let anchor = (away / lattice.step).floor();
+    let anchor = anchor(shot, grid);
     let steps = anchor + 0.5;
     let first = match lattice.first(view) {
         i64::MIN => -MOST_PLANES,
