@@ -1,7 +1,7 @@
 // The magnitude of the seed image's gradient ([HALO-4]).
 
 // Half the difference of two taps in x and in y, over q pixels on both sides.
-fn difference_in(x: i32, y: i32, layer: i32, step: vec2<i32>, taps: Taps) -> vec4<real> {
+fn difference_in(x: i32, y: i32, layer: i32, step: vec2<i32>, taps: HaloTaps) -> vec4<real> {
     let near = step * taps.j;
     var d = seeds_at(x + near.x, y + near.y, layer) - seeds_at(x - near.x, y - near.y, layer);
     if (taps.f > 0.0) {
@@ -13,7 +13,7 @@ fn difference_in(x: i32, y: i32, layer: i32, step: vec2<i32>, taps: Taps) -> vec
 }
 
 // sqrt(dx^2 + dy^2), at most 1.
-fn seed_gradient(x: i32, y: i32, layer: i32, taps: Taps) -> vec4<real> {
+fn seed_gradient(x: i32, y: i32, layer: i32, taps: HaloTaps) -> vec4<real> {
     let dx = difference_in(x, y, layer, vec2(1, 0), taps);
     let dy = difference_in(x, y, layer, vec2(0, 1), taps);
     return min(sqrt(dx * dx + dy * dy), vec4<real>(1.0));

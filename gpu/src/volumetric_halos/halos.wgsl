@@ -49,7 +49,7 @@ struct PlaneGroup {
     first: i32,
     last: i32,
     end: i32,
-    // Taps of a pass lie q 2^exponent rays apart.
+    // HaloTaps of a pass lie q 2^exponent rays apart.
     exponent: i32,
 }
 

@@ -6,7 +6,7 @@ use crate::{Gpu, GpuError, Precision, ray};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::halo::{split_distance, tap_distance};
-use drypoint_scene::shot::{HaloKind, HaloParams, Shot, StepAlong};
+use drypoint_scene::shot::{HaloKind, HaloParams, Shot};
 use drypoint_scene::space::Grid;
 
 /// Pixels along the side of a workgroup.
@@ -87,12 +87,8 @@ fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last
 /// The planes, counted from the eye, on which any ray can have a sample or an iso-surface.
 fn reached(shot: &Shot, grid: &Grid) -> [i64; 2] {
     let Shot { view, lattice, .. } = shot;
-    let by_ray = view.perspective && lattice.along == StepAlong::Ray;
     let corners = grid.world_corners().map(|corner: DVec3| view.to_eye(corner));
-    // No place is nearer than its depth along the axis, nor farther than the farthest corner.
-    let near = corners.iter().map(|p| -p.z).fold(f64::INFINITY, f64::min);
-    let near = if by_ray { near.max(0.0) } else { near };
-    let far = corners.iter().map(|p| if by_ray { p.length() } else { -p.z }).fold(f64::NEG_INFINITY, f64::max);
+    let [near, far] = [f64::min, f64::max].map(|end| corners.iter().map(|p| -p.z).reduce(end).unwrap_or(0.0));
     let plane = |depth: f64| (depth / lattice.step).floor() as i64;
     [(plane(near) - 1).max(lattice.first(view)), plane(far) + 2]
 }

@@ -6,15 +6,15 @@
 @group(3) @binding(2) var<storage, read_write> image_after: array<vec4<real>>;
 
 // Two taps, t = j + f rays before and behind a pixel, each linear between its two neighbours.
-struct Taps {
+struct HaloTaps {
     j: i32,
     f: real,
 }
 
 // The taps of a halo's passes, from the shortest distance, q, on.
-fn taps_of(halo: i32, exponent: i32) -> Taps {
+fn taps_of(halo: i32, exponent: i32) -> HaloTaps {
     let at = FIRST_TAPS + 2 * (halo * MOST_PASSES + exponent);
-    return Taps(i32(halo_numbers[at]), halo_numbers[at + 1]);
+    return HaloTaps(i32(halo_numbers[at]), halo_numbers[at + 1]);
 }
 
 // A pixel of the image before; 0 beyond the border.
@@ -26,7 +26,7 @@ fn before_at(x: i32, y: i32, layer: i32) -> vec4<real> {
 }
 
 // Weights [1 2 1]/4 in y.
-fn column_of(x: i32, y: i32, layer: i32, taps: Taps) -> vec4<real> {
+fn column_of(x: i32, y: i32, layer: i32, taps: HaloTaps) -> vec4<real> {
     var sum = before_at(x, y - taps.j, layer) + before_at(x, y + taps.j, layer);
     if (taps.f > 0.0) {
         let far = before_at(x, y - taps.j - 1, layer) + before_at(x, y + taps.j + 1, layer);
@@ -36,7 +36,7 @@ fn column_of(x: i32, y: i32, layer: i32, taps: Taps) -> vec4<real> {
 }
 
 // F: weights [1 2 1; 2 4 2; 1 2 1]/16, first in y, then in x.
-fn filtered(x: i32, y: i32, layer: i32, taps: Taps) -> vec4<real> {
+fn filtered(x: i32, y: i32, layer: i32, taps: HaloTaps) -> vec4<real> {
     var sum = column_of(x - taps.j, y, layer, taps) + column_of(x + taps.j, y, layer, taps);
     if (taps.f > 0.0) {
         let far = column_of(x - taps.j - 1, y, layer, taps) + column_of(x + taps.j + 1, y, layer, taps);
