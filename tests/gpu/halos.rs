@@ -1,6 +1,12 @@
 //! Volumetric halos (Bruckner and Gröller 2007): shaders in f64 equal the reference to 10⁻⁹.
 
 use crate::double::differences;
+use crate::two_quantities::{labels, styles, torus};
+use crate::{field, gpu};
+use drypoint::gpu::{GpuJob, Precision};
+use drypoint::job::Job;
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::space::Grid;
 
 /// A torus seen from the side, so that it lies before itself.
 const TORUS: &str = r##"
@@ -187,4 +193,73 @@ fn cameras() {
             assert!(found[0] < 1e-9, "{name}: {found:?}");
         }
     }
+}
+
+/// h_v and κ of functions of styles and over two quantities; h_l.
+#[test]
+fn functions_and_labels() {
+    let halos = "[[halo]]\n[[halo]]\nkind = \"emissive\"\nseed = { by = \"curvature\", value = \"opacity\" }\n";
+    let cut = "[[clip]]\npoint = [20, 18, 16]\nnormal = [1, 0.7, 0.4]\nspace = \"index\"\n";
+    let rows = styles([2.0, 10.0, 20.0]);
+    let gradients = format!("over = [\"value\", \"gradient-magnitude\"]\n{rows}");
+    let along_view = format!("over = [\"value\", \"kv\"]\n{}", styles([0.0, 0.1, 0.3]));
+    let nodes = "nodes = [{ at = 100, style = \"wax\", opacity = 0 }, { at = 128, style = \"glass\", opacity = 0.5 }]";
+    let by_value = "[[halo]]\nseed.value = [[100, 0], [128, 1]]\n";
+    let path = labels("halos", &Grid::with_spacing([32; 3], [1.0; 3]).unwrap(), "uint8", 77);
+    let labelled = format!("labels = {path:?}");
+    let over_labels = format!("over = [\"value\", \"label\"]\n{}", styles([1.0, 2.0, 77.0]));
+    let of_labels = "[[halo]]\nseed.labels = [2, 77]\n[[halo]]\nkind = \"emissive\"\nseed.labels = [1]\n";
+    for (name, volume, transfer, tables) in [
+        ("styles", "", nodes, format!("{halos}[contours]\nthickness = \"1.5 voxels\"\n")),
+        ("styles and a table", "", &format!("table = 64\n{nodes}"), halos.to_owned()),
+        ("styles and a cut", "", nodes, format!("{halos}{cut}")),
+        ("gradients", "", &gradients, halos.to_owned()),
+        ("gradients, seeds of values", "", &gradients, by_value.to_owned()),
+        ("curvatures", "", &along_view, format!("{halos}[contours]\n{cut}")),
+        ("labels", &labelled, nodes, of_labels.to_owned()),
+        ("labels twice", &labelled, &over_labels, of_labels.to_owned()),
+    ] {
+        let Some(found) = differences(&torus(volume, transfer, &tables)) else { return };
+        println!("{name}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
+        assert!(found[0] < 1e-9, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn fields_of_halos() {
+    let halos = "[shading]\n[[halo]]\nseed.by = \"curvature\"\n[[halo]]\nkind = \"emissive\"\nevery = 2\n";
+    field::compare("halos", &[([11, 9, 8], "uchar"), ([11, 9, 8], "masked"), ([14, 12, 1], "uchar")], halos);
+    let surface = format!("{halos}[surface]\niso = 150\nlook = \"phong\"\n");
+    field::compare("halos and a surface", &[([11, 9, 8], "uchar"), ([11, 9, 8], "masked")], &surface);
+}
+
+/// The text of shaders, and how a picture is refused whose images do not fit.
+#[test]
+fn what_halos_add() {
+    let Some(gpu) = gpu() else { return };
+    let text = |tables: &str| {
+        let scene = parse(&scene("", tables), "scene.toml".as_ref(), &Overrides::default()).unwrap();
+        let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+        let text = std::cell::RefCell::new(String::new());
+        let drawn = GpuJob::new(&job, &gpu, Precision::Single).unwrap();
+        let keep = |whole: String| {
+            text.replace(whole.clone());
+            whole
+        };
+        drop(drawn.edited(&keep).unwrap_or_else(|failure| panic!("{failure}")));
+        text.into_inner().to_lowercase()
+    };
+    assert!(!text("").contains("halo") && !text("").contains("seed"));
+    assert!(!text("[[halo]]\nopacity = 0\n").contains("halo"));
+    assert!(text("[[halo]]\n").contains("fn halo_seeds"));
+}
+
+#[test]
+fn a_picture_that_is_too_large() {
+    let Some(gpu) = gpu() else { return };
+    let large = TORUS.replace("size = [64, 48]", "size = [16000, 12000]").replace("PICTURE\n", "samples = 4\n");
+    let scene = parse(&format!("{large}[[halo]]\n"), "scene.toml".as_ref(), &Overrides::default()).unwrap();
+    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+    let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
+    assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
 }
