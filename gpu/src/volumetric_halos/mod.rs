@@ -30,6 +30,15 @@ struct Lists {
     labels: Vec<u32>,
 }
 
+impl Lists {
+    /// Appends numbers and returns the place of the first one.
+    fn place(&mut self, numbers: Vec<f64>) -> f64 {
+        let first = self.numbers.len() as f64;
+        self.numbers.extend(numbers);
+        first
+    }
+}
+
 /// Adds the halos of a shot, after everything that samples are asked for; `own` is the query of samples without halos.
 pub(crate) fn add(
     shader: &mut Shader,
@@ -57,7 +66,15 @@ pub(crate) fn add(
     }
     let alike =
         |a: &HaloParams, b: &HaloParams| a.spread.passes == b.spread.passes && a.spread.stretch == b.spread.stretch;
-    shader.add(&[NUMBER, ELEMENTARY, module!("halos"), module!("profile"), module!("tint"), module!("glow")]);
+    shader.add(&[
+        NUMBER,
+        ELEMENTARY,
+        module!("halos"),
+        module!("images"),
+        module!("profile"),
+        module!("tint"),
+        module!("glow"),
+    ]);
     shader.add(&[module!("rays"), module!("seeds"), module!("seed_value"), module!("spreading")]);
     for (name, value) in [
         ("HALOS", list.len()),
@@ -135,11 +152,6 @@ pub(crate) fn add(
 fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Inputs<'_>, scales: &Scales) -> Vec<f64> {
     let (seed, spread) = (&halo.seed, &halo.spread);
     let flag = |is: bool| f64::from(u8::from(is));
-    let mut place = |numbers: Vec<f64>| {
-        let first = lists.numbers.len() as f64;
-        lists.numbers.extend(numbers);
-        first
-    };
     let mut parameters = vec![
         flag(halo.kind == HaloKind::Occlusive),
         halo.every.max(1) as f64,
@@ -156,7 +168,7 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Input
         Some(SeedValue::Opacity) => 1.0,
         Some(SeedValue::Nodes(_)) => 2.0,
     };
-    let first = place(nodes.iter().enumerate().flat_map(node).collect());
+    let first = lists.place(nodes.iter().enumerate().flat_map(node).collect());
     parameters.extend([value, first, nodes.len() as f64]);
     // h_l; a negative number of labels: all.
     parameters.push(lists.labels.len() as f64);
@@ -166,13 +178,8 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Input
     let origin = inputs.volume.grid().origin();
     let points: Vec<f64> =
         seed.focus.iter().flat_map(|focus| &focus.at).flat_map(|p: &DVec3| (*p - origin).to_array()).collect();
-    let mut place = |numbers: Vec<f64>| {
-        let first = lists.numbers.len() as f64;
-        lists.numbers.extend(numbers);
-        first
-    };
     let count = (points.len() / 3) as f64;
-    parameters.extend([place(points), count]);
+    parameters.extend([lists.place(points), count]);
     parameters.extend(seed.focus.as_ref().map_or([0.0; 2], |focus| [focus.inner, focus.falloff]));
     // h_d.
     parameters.extend(match seed.direction.filter(|direction| direction.width < 360.0) {
@@ -200,8 +207,12 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Input
     // The profile.
     let node =
         |node: &drypoint_scene::shot::ProfileNode| [node.at, node.rgb[0], node.rgb[1], node.rgb[2], node.opacity];
-    parameters.extend([place(halo.profile.iter().flat_map(node).collect()), halo.profile.len() as f64, halo.opacity]);
-    parameters.push(place((0..halos).map(|i| flag(halo.tints.contains(&i))).collect()));
+    parameters.extend([
+        lists.place(halo.profile.iter().flat_map(node).collect()),
+        halo.profile.len() as f64,
+        halo.opacity,
+    ]);
+    parameters.push(lists.place((0..halos).map(|i| flag(halo.tints.contains(&i))).collect()));
     parameters
 }
 
@@ -234,16 +245,11 @@ fn add_stages(
     next: Vec<&'static str>,
 ) {
     let stages = &mut shader.stages;
-    let asked = |query: SampleQuery| move |stage: &&&'static str| transfer::over::is_of(stage, query);
     // Seeds have their own query, and so has what is composited.
-    let all: Vec<&'static str> = stages.measured_first.iter().chain(&stages.measured).copied().collect();
-    let mut measured: Vec<&'static str> = all.iter().filter(asked(shot.halos.query)).copied().collect();
-    if asks_first {
-        measured.retain(|stage| !stages.measured_first.contains(stage));
-    }
-    measured.retain(|stage| *stage != "measure_cut");
-    let only_seeds = |stage: &&'static str| *stage == "measure_cut" || transfer::over::is_of(stage, own);
-    stages.measured.retain(|stage| only_seeds(&stage));
+    let is_asked = |stage: &&str| transfer::over::is_of(stage, shot.halos.query) && *stage != "measure_cut";
+    let first = if asks_first { &[][..] } else { &stages.measured_first };
+    let measured: Vec<&'static str> = first.iter().chain(&stages.measured).copied().filter(is_asked).collect();
+    stages.measured.retain(|stage| *stage == "measure_cut" || transfer::over::is_of(stage, own));
     let has = |list: &[&'static str], name: &'static str| list.contains(&name).then_some(name);
     let mut kept: Vec<Kept> = Vec::new();
     let clips = has(&stages.samples_left, "clip_run");

@@ -95,7 +95,7 @@ fn halo_end(@builtin(global_invocation_id) id: vec3<u32>) {
     var s = seed_image[place];
     for (var c = 0; c < min(4, HALOS - 4 * at.z); c++) {
         let halo = 4 * at.z + c;
-        if (group_ends(halo)) {
+        if (group_ends(plane_group.end, i32(halos[halo].every))) {
             h[c] = select(result[c], real(0.0), result[c] < halos[halo].floor);
             o[c] = max(o[c], h[c]);
             s[c] = 0.0;
