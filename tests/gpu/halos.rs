@@ -26,7 +26,7 @@ nodes = [{ at = 100, color = "#804020", opacity = 0 }, { at = 128, color = "#ffc
 "##;
 
 /// Scenes of a torus with further tables, and keys in the place of `samples`.
-fn scene(picture: &str, tables: &str) -> String {
+pub(crate) fn scene(picture: &str, tables: &str) -> String {
     let samples = if picture.contains("samples") { "" } else { "samples = 1\n" };
     let background = if picture.contains("background") { "" } else { "background = \"#d0c8b0\"\n" };
     TORUS.replace("PICTURE\n", &format!("{samples}{background}{picture}\n")) + tables

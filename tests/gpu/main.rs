@@ -5,6 +5,8 @@ mod double;
 mod field;
 mod formulas;
 mod halos;
+#[path = "sabotage/halos.rs"]
+mod sabotage_of_halos;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
