@@ -6,7 +6,7 @@ use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
     GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, ray, shading,
-    style_transfer_functions, surface, transfer,
+    style_transfer_functions, surface, transfer, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
@@ -31,7 +31,9 @@ pub(crate) fn shader(
     interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
-    refuse(shot)?;
+    if inputs.has_lines && !shot.halos.list.is_empty() {
+        return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.mode" });
+    }
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
     // The field and its rays.
@@ -56,7 +58,9 @@ pub(crate) fn shader(
     }
     // Quantities of layers `first.*` are measured at every visible sample.
     let query = object.first.map_or(object.query, |first| object.query.and(first));
-    let query = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
+    let own = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
+    let has_halos = !shot.halos.list.is_empty();
+    let query = if has_halos { own.and(shot.halos.query) } else { own };
     if query.gradient {
         field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
         ray::add_gradient(&mut shader, measured, &scales);
@@ -108,7 +112,10 @@ pub(crate) fn shader(
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
-    ray::layers::add(&mut shader, layers)?;
+    ray::layers::add(&mut shader, layers);
+    if has_halos {
+        volumetric_halos::add(&mut shader, shot, own, inputs, &scales, precision)?;
+    }
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))
 }
@@ -135,12 +142,6 @@ fn light_of(lit: &Illumination) -> Option<DVec3> {
         Lighting::Phong(phong) => Some(phong.light),
         Lighting::Toon(toon) => Some(toon.light),
     }
-}
-
-/// Refuses what no module draws.
-fn refuse(shot: &Shot) -> Result<(), GpuError> {
-    let missing = |is: bool, what, key| if is { Err(GpuError::Missing { what, key }) } else { Ok(()) };
-    missing(!shot.halos.list.is_empty(), "halos", "halo")
 }
 
 /// Adds the light of colours.

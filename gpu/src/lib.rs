@@ -11,6 +11,7 @@
 
 mod block;
 mod buffers;
+mod canvas;
 mod clock;
 mod compose;
 mod device;
@@ -28,6 +29,7 @@ mod style_transfer_functions;
 mod surface;
 mod transfer;
 mod volume;
+mod volumetric_halos;
 
 pub use device::{Gpu, Interpolation, Precision, WANTED};
 pub use error::GpuError;

@@ -1,6 +1,5 @@
 //! The buffers of a picture that is being drawn.
 
-use crate::buffers::entry;
 use crate::{Gpu, GpuError};
 use std::ops::Range;
 
@@ -15,7 +14,7 @@ pub(crate) struct PictureBuffers {
     /// Numbers on their way to the host.
     pub(crate) back: wgpu::Buffer,
     /// The numbers before pixels are refined; none: no pixel is.
-    before: Option<wgpu::Buffer>,
+    pub(crate) before: Option<wgpu::Buffer>,
 }
 
 impl PictureBuffers {
@@ -42,22 +41,6 @@ impl PictureBuffers {
             (out, back, refines.then(|| new(storage | wgpu::BufferUsages::COPY_DST)))
         })?;
         Ok(Self { rows, bytes_a_row, out, back, before })
-    }
-
-    /// Group 0 of the drawing pass, or of the refinement. `further` are buffers with their bindings.
-    pub(crate) fn group(
-        &self,
-        gpu: &Gpu,
-        params: &wgpu::Buffer,
-        layout: &wgpu::BindGroupLayout,
-        refines: bool,
-        further: &[(u32, &wgpu::Buffer)],
-    ) -> Result<wgpu::BindGroup, GpuError> {
-        let mut entries = vec![entry(0, params), entry(1, &self.out)];
-        entries.extend(self.before.iter().filter(|_| refines).map(|before| entry(2, before)));
-        entries.extend(further.iter().map(|(binding, buffer)| entry(*binding, buffer)));
-        let descriptor = wgpu::BindGroupDescriptor { label: Some("picture"), layout, entries: &entries };
-        gpu.attempt("the picture", || gpu.device.create_bind_group(&descriptor))
     }
 
     /// The rows that are drawn for rows that are finished.

@@ -1,13 +1,16 @@
 //! Pictures of a shot, any number of them.
 
-use crate::buffers::{buffer, list_entry, pipeline, read};
+use crate::buffers::{buffer, list_entry, read};
+use crate::canvas::Canvas;
 use crate::clock::Clock;
 use crate::field::Scales;
 use crate::picture_buffers::PictureBuffers;
 use crate::ray::layers::in_picture_units;
 use crate::ray::lines::LinesOnRays;
+use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
+use crate::volumetric_halos::planes::HaloPlanes;
 use crate::{Gpu, GpuError, Precision, Volume, compose};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::fragments::Fragments;
@@ -18,13 +21,6 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::labels::LabelVolume;
 use std::ops::Range;
-
-/// Pixels along the side of a workgroup.
-const GROUP: u32 = 8;
-
-/// About the most samples of one submission to a card, so that no driver takes it for a fault; and to software, so that
-/// progress is heard.
-const SAMPLES_AT_ONCE: [f64; 2] = [(1u64 << 28) as f64, (1u64 << 26) as f64];
 
 /// The first channel of a pixel whose rays the driver ended lies below.
 const UNFINISHED: f64 = -1.5e30;
@@ -48,15 +44,21 @@ pub struct Inputs<'a> {
     pub has_lines: bool,
 }
 
+/// The order in which rays are drawn.
+enum Rays {
+    /// Each ray alone, band by band.
+    Alone(RayPasses),
+    /// All rays together, plane by plane.
+    Together(Box<HaloPlanes>),
+}
+
 /// A shot that is ready to be drawn any number of times.
 pub struct Renderer<'g> {
     gpu: &'g Gpu,
     precision: Precision,
     shader: Shader,
     scales: Scales,
-    draw: Pass,
-    /// Further rays at edges; none: no pixel is refined.
-    refinement: Option<Pass>,
+    rays: Rays,
     params: wgpu::Buffer,
     data: wgpu::BindGroup,
     picture: PictureBuffers,
@@ -69,10 +71,6 @@ pub struct Renderer<'g> {
     /// Those, with the beauty first where edges are found by it.
     layers: Vec<LayerKind>,
     size: [usize; 2],
-    /// n of the n×n rays of a pixel, before it is refined.
-    rays_across: usize,
-    /// Samples of a row of pixels, roughly.
-    samples_a_row: f64,
 }
 
 impl<'g> Renderer<'g> {
@@ -101,13 +99,15 @@ impl<'g> Renderer<'g> {
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
-        let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, inputs.volume.grid()));
-        let pass = |entry_point, reads: &[u32]| {
-            let of_lines: &[u32] = if lines.is_some() { &[3, 4] } else { &[] };
-            Pass::new(gpu, &text, entry_point, &[reads, of_lines].concat(), &data_layout)
+        let grid = inputs.volume.grid();
+        let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
+        let rays = if shot.halos.list.is_empty() {
+            let has_lines = lines.is_some();
+            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, has_lines)?)
+        } else {
+            let shader = (&shader, text.as_str());
+            Rays::Together(Box::new(HaloPlanes::new(gpu, shot, grid, shader, &data_layout, precision)?))
         };
-        let draw = pass("draw", &[0])?;
-        let refinement = shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?;
         let params = buffer(
             gpu,
             "the parameters",
@@ -116,27 +116,22 @@ impl<'g> Renderer<'g> {
         )?;
         let channels: usize = layers.iter().map(|layer| layer.channels().len()).sum();
         let bytes_a_row = (shot.view.size[0] * channels) as u64 * precision.size();
-        let picture = PictureBuffers::new(gpu, refinement.is_some(), bytes_a_row, shot.view.size[1])?;
-        let rays = (shot.rays_across * shot.rays_across) as f64;
-        let planes = shot.lattice.planes(&shot.view, inputs.volume.grid());
+        let refines = shot.refine_above.is_some();
         Ok(Self {
             gpu,
             precision,
             shader,
             scales,
-            draw,
-            refinement,
+            rays,
             params,
             data,
-            picture,
+            picture: PictureBuffers::new(gpu, refines, bytes_a_row, shot.view.size[1])?,
             presentation: None,
             clock: Clock::new(gpu)?,
             lines,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
-            rays_across: shot.rays_across,
-            samples_a_row: shot.view.size[0] as f64 * rays * planes.max(1.0),
         })
     }
 
@@ -148,6 +143,9 @@ impl<'g> Renderer<'g> {
         self.shader.block.update(&compose::camera(shot, grid)?);
         if let Some(lines) = &mut self.lines {
             lines.turn(shot, grid);
+        }
+        if let Rays::Together(planes) = &mut self.rays {
+            planes.turn(shot, grid);
         }
         Ok(())
     }
@@ -174,6 +172,9 @@ impl<'g> Renderer<'g> {
         let kinds: Vec<LayerKind> =
             self.layers.iter().flat_map(|&layer| std::iter::repeat_n(layer, layer.channels().len())).collect();
         let mut planes = vec![vec![0.0; width * height]; kinds.len()];
+        if matches!(self.rays, Rays::Together(_)) {
+            self.fits_whole()?;
+        }
         for first in (0..height).step_by(self.picture.rows) {
             let rows = first..(first + self.picture.rows).min(height);
             self.draw_rows(rows.clone(), Some(progress))?;
@@ -209,16 +210,8 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// A shot without a beauty, a picture that does not fit in one buffer, and a device that is lost.
     pub fn frame_into(&mut self, target: &wgpu::TextureView) -> Result<(), GpuError> {
-        let [_, height] = self.size;
-        if self.picture.rows < height {
-            return Err(GpuError::TooManyBytes {
-                what: "the picture",
-                bytes: self.picture.bytes_a_row * height as u64,
-                most: self.gpu.device.limits().max_storage_buffer_binding_size,
-                adapter: self.gpu.name().to_owned(),
-            });
-        }
-        self.draw_rows(0..height, None)?;
+        self.fits_whole()?;
+        self.draw_rows(0..self.size[1], None)?;
         let presentation = match self.presentation.take() {
             Some(presentation) => presentation,
             None => Presentation::new(self.gpu, self.precision, self.size, &self.layers)?,
@@ -237,88 +230,34 @@ impl<'g> Renderer<'g> {
         self.clock.as_ref().map(|clock| clock.seconds(self.gpu)).transpose()
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back. With `progress` each submission is
-    /// waited for.
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back.
     fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<(), GpuError> {
-        let [width, height] = self.size;
-        // Edges are found in the rows around those that are refined, too.
-        let around = self.picture.rows_around(&rows, height);
-        let passes = 1 + usize::from(self.refinement.is_some());
-        self.shader.block.set("top_row", around.start as f64);
-        let lines = self.lines.as_ref().map(|lines| lines.buffers(self.gpu, self.precision)).transpose()?;
-        let lines: Vec<_> = lines.iter().flat_map(|[starts, fragments]| [(3, starts), (4, fragments)]).collect();
-        for pass in 0..passes {
-            let layout = &self.pass(pass).layout;
-            let group = self.picture.group(self.gpu, &self.params, layout, pass > 0, &lines)?;
-            let (pass_rows, rays) = if pass == 0 { (around.clone(), self.rays_across) } else { (rows.clone(), 3) };
-            let parts = rays * rays;
-            // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
-            let parts_at_once = if self.layers == [LayerKind::Beauty] { 1 } else { parts };
-            let samples = self.samples_a_row * (parts_at_once as f64 / (self.rays_across * self.rays_across) as f64);
-            let at_once = SAMPLES_AT_ONCE[usize::from(self.gpu.is_software())];
-            let band = ((at_once / samples) as usize).max(GROUP as usize);
-            for first in pass_rows.clone().step_by(band) {
-                let end = (first + band).min(pass_rows.end);
-                self.shader.block.set("first_row", first as f64);
-                self.shader.block.set("end_row", end as f64);
-                for part in (0..parts).step_by(parts_at_once) {
-                    self.shader.block.set("first_part", part as f64);
-                    self.shader.block.set("end_part", (part + parts_at_once) as f64);
-                    let is_first = pass == 0 && first == 0 && part == 0;
-                    let is_end_of_pass = end == pass_rows.end && part + parts_at_once >= parts;
-                    let is_end_of_rows = is_end_of_pass && pass + 1 == passes;
-                    let stamps = [is_first, is_end_of_rows && rows.end == height];
-                    let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
-                    self.submit(pass, &group, groups, stamps, |picture, encoder| {
-                        if is_end_of_rows {
-                            picture.copy_back(encoder, rows.start - around.start, rows.len());
-                        } else if is_end_of_pass {
-                            picture.keep_first(encoder);
-                        }
-                    })?;
-                }
-                if let Some(progress) = progress {
-                    self.gpu.wait()?;
-                    progress((pass as f64 + end as f64 / height as f64) / passes as f64);
-                }
+        let Self { gpu, params, data, picture, clock, .. } = self;
+        let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress };
+        match &self.rays {
+            Rays::Alone(passes) => {
+                let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
+                let lines: Vec<_> = lines.iter().flat_map(|[starts, places]| [(3, starts), (4, places)]).collect();
+                passes.draw(&canvas, (&mut self.shader.block, self.precision), &lines, rows)
+            }
+            Rays::Together(planes) => {
+                canvas.write_params(&self.shader.block, self.precision)?;
+                planes.draw(&canvas)
             }
         }
-        Ok(())
     }
 
-    /// The drawing pass, 0, or the refinement, 1.
-    fn pass(&self, pass: usize) -> &Pass {
-        self.refinement.as_ref().filter(|_| pass > 0).unwrap_or(&self.draw)
-    }
-
-    /// Submits one dispatch of the drawing pass, or of the refinement, and the copies that follow it. `stamps`: whether the
-    /// frame begins with it, and whether it ends.
-    fn submit(
-        &self,
-        pass: usize,
-        group: &wgpu::BindGroup,
-        groups: [u32; 2],
-        [begins, ends]: [bool; 2],
-        then: impl FnOnce(&PictureBuffers, &mut wgpu::CommandEncoder),
-    ) -> Result<(), GpuError> {
-        let (gpu, picture) = (self.gpu, &self.picture);
-        gpu.attempt("the picture", || {
-            gpu.queue.write_buffer(&self.params, 0, &self.shader.block.bytes(self.precision));
-            let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            {
-                let timestamp_writes = self.clock.as_ref().and_then(|clock| clock.stamps(begins, ends));
-                let mut run =
-                    encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
-                run.set_pipeline(&self.pass(pass).pipeline);
-                run.set_bind_group(0, group, &[]);
-                run.set_bind_group(1, &self.data, &[]);
-                run.dispatch_workgroups(groups[0], groups[1], 1);
-            }
-            then(picture, &mut encoder);
-            if let (true, Some(clock)) = (ends, &self.clock) {
-                clock.resolve(&mut encoder);
-            }
-            gpu.queue.submit([encoder.finish()]);
+    /// Refuses a picture that does not fit in one buffer.
+    fn fits_whole(&self) -> Result<(), GpuError> {
+        let [_, height] = self.size;
+        if self.picture.rows >= height {
+            return Ok(());
+        }
+        Err(GpuError::TooManyBytes {
+            what: "the picture",
+            bytes: self.picture.bytes_a_row * height as u64,
+            most: self.gpu.device.limits().max_storage_buffer_binding_size,
+            adapter: self.gpu.name().to_owned(),
         })
     }
 }
@@ -332,29 +271,6 @@ pub(crate) fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
     }
     first.append(&mut layers);
     first
-}
-
-/// An entry point of the shader, with the layout of group 0.
-struct Pass {
-    pipeline: wgpu::ComputePipeline,
-    layout: wgpu::BindGroupLayout,
-}
-
-impl Pass {
-    /// An entry point that writes the picture and reads lists of group 0, by their bindings.
-    fn new(
-        gpu: &Gpu,
-        text: &str,
-        entry_point: &'static str,
-        reads: &[u32],
-        data: &wgpu::BindGroupLayout,
-    ) -> Result<Self, GpuError> {
-        let lists = reads.iter().map(|&binding| list_entry(binding, true));
-        let entries: Vec<_> = lists.chain([list_entry(1, false)]).collect();
-        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
-        let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
-        Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })
-    }
 }
 
 /// The layout of group 1: the data of the scene's effects.

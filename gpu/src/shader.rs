@@ -1,7 +1,7 @@
 //! A shader put together from modules.
 
 use crate::block::Block;
-use crate::{Interpolation, Precision};
+use crate::{Interpolation, Precision, volumetric_halos};
 use std::fmt::Write;
 
 /// A WGSL file.
@@ -87,6 +87,8 @@ pub(crate) struct Stages {
     /// Expressions for the channels of a pixel, in their order; `mean` is the beauty. Those of one ray stay when the pixel is
     /// refined.
     pub(crate) channels: Vec<Channel>,
+    /// Those of halos; none: there are none.
+    pub(crate) halos: Option<volumetric_halos::Stages>,
 }
 
 /// A channel of a pixel.
@@ -146,6 +148,7 @@ impl Shader {
             let _ = write!(text, "\n{}", module.text);
         }
         text.push_str(&self.stages.wgsl());
+        text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
         text
     }
 }

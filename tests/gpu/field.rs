@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 /// A volume file of bumps and noise on a sheared grid: u8, or f32 with some voxels that are not numbers.
-fn volume([nx, ny, nz]: [usize; 3], kind: &str) -> String {
+pub(crate) fn volume([nx, ny, nz]: [usize; 3], kind: &str) -> String {
     let mut next = crate::formulas::random(11);
     let number = |x: usize, y: usize, z: usize, r: f64| {
         let c = |i: usize, n: usize| (i as f64 + 0.5) / n as f64 - 0.5;
@@ -54,7 +54,7 @@ background = "#203040"
 }
 
 /// Compares a scene of each volume.
-fn compare(name: &str, volumes: &[([usize; 3], &str)], more: &str) {
+pub(crate) fn compare(name: &str, volumes: &[([usize; 3], &str)], more: &str) {
     for &(dims, kind) in volumes {
         let Some([double, single]) = differences(&scene(dims, kind, more)) else { return };
         println!("{name} {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");

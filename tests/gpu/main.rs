@@ -5,9 +5,12 @@ mod cost;
 mod double;
 mod field;
 mod formulas;
+mod halos;
 mod lines;
 #[path = "sabotage/bounds.rs"]
 mod sabotage_of_bounds;
+#[path = "sabotage/halos.rs"]
+mod sabotage_of_halos;
 #[path = "sabotage/lines.rs"]
 mod sabotage_of_lines;
 #[path = "sabotage/rays.rs"]

@@ -111,7 +111,8 @@ const CHOICES: &[Choice] = &[
             &[
                 ("transfer", ROWS),
                 ("transfer", "over = [\"label\", { volume = \"v.nrrd\" }]"),
-                ("volume", "labels = \"l.nrrd\"\nlabel_lookup = \"smooth\""),
+                ("volume", "labels = \"l.nrrd\""),
+                ("volume", "label_lookup = \"smooth\""),
             ],
             &[("transfer", ROWS), ("transfer", "over = [{ volume = \"v.nrrd\" }, { volume = \"w.nrrd\" }]")],
             &[
@@ -139,6 +140,21 @@ const CHOICES: &[Choice] = &[
             &[("[clip]", "point = [3, 3, 3]\nnormal = [1, 1, 0]\nspace = \"index\"\nstyle = \"glass\"")],
         ],
     ),
+    (
+        "halos",
+        &[
+            &[],
+            &[("[halo]", "")],
+            &[("[halo]", "kind = \"emissive\"\nevery = 3\nseed.by = \"curvature\"\nspread = { from = \"seeds\" }")],
+            &[("[halo]", "spread.median = true\nseed.value = \"opacity\"")],
+            &[(
+                "[halo]",
+                "seed.value = [[1, 0], [5, 1]]\nseed.direction = { toward = 30, width = 90, softness = 20 }\n\
+                 seed.focus = { at = [[3, 3, 3], [5, 4, 3]], inner = 1, falloff = 2 }",
+            )],
+            &[("[halo]", "seed.labels = [1]"), ("volume", "labels = \"l.nrrd\"")],
+        ],
+    ),
     // Not of the scene's text.
     ("picture behind", &[&[], &[]]),
     ("labels elsewhere", &[&[], &[]]),
@@ -159,7 +175,8 @@ fn text(chosen: &[usize]) -> String {
     for (alternatives, &i) in CHOICES.iter().map(|choice| choice.1).zip(chosen) {
         for &(table, keys) in alternatives[i] {
             match tables.iter_mut().find(|(name, _)| *name == table) {
-                Some((_, all)) => all.push(keys),
+                // Two choices may need one key.
+                Some((_, all)) => all.extend((!all.contains(&keys)).then_some(keys)),
                 None => tables.push((table, vec![keys])),
             }
         }
@@ -330,9 +347,12 @@ fn every_pair_of_effects_has_a_valid_shader() {
         valid += 1;
         seen.extend(pairs);
     }
-    // Pairs without a scene: analytic Hessians of kernels that are not smooth enough, and neither a function nor a surface.
+    // Pairs without a scene: analytic Hessians of kernels that are not smooth enough, neither a function nor a surface, halos
+    // on shells, and halos with lines.
     let impossible = [("Hessian", 1, "kernel", 0), ("Hessian", 1, "kernel", 4), ("surface", 0, "material", 0)];
-    let impossible = impossible.map(|(a, i, b, j)| [place(a), i, place(b), j]);
+    let of_halos = |a, b| (1..6).map(move |i| if a == "halos" { (a, i, b, 1) } else { (a, 1, b, i) });
+    let impossible = impossible.into_iter().chain(of_halos("halos", "planes")).chain(of_halos("lines", "halos"));
+    let impossible: Vec<_> = impossible.map(|(a, i, b, j)| [place(a), i, place(b), j]).collect();
     let all = (0..sizes.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let all = all
         .flat_map(|(a, b)| (0..sizes[a]).map(move |i| (a, i, b)))
@@ -344,7 +364,7 @@ fn every_pair_of_effects_has_a_valid_shader() {
     assert!(unused.is_empty(), "no scene has {unused:?}");
 }
 
-/// Scenes with a function and a surface of their own, and without halos.
+/// Scenes with a function and a surface of their own.
 #[test]
 fn the_scenes_of_the_repository_have_valid_shaders() {
     let mut valid = Vec::new();

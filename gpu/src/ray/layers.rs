@@ -1,17 +1,42 @@
 //! Layers of a picture ([IO-6]).
 
-use crate::GpuError;
 use crate::field::Scales;
 use crate::ray::EYE_NORMAL;
 use crate::shader::{Channel, Shader, module};
+use crate::volumetric_halos::Stages;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
 
 /// From here on a depth stands for none.
 const NOWHERE: f64 = 1e37;
 
+/// The sums along a ray, from `begin_sums` on.
+pub(crate) const KEPT: [&str; 21] = [
+    "ray_sums.opacity",
+    "ray_sums.weight",
+    "ray_sums.first.depth",
+    "ray_sums.first.value",
+    "ray_sums.first.normal.x",
+    "ray_sums.first.normal.y",
+    "ray_sums.first.normal.z",
+    "ray_sums.first.curvature.x",
+    "ray_sums.first.curvature.y",
+    "ray_sums.first.curvature.z",
+    "ray_sums.half",
+    "ray_sums.depth",
+    "ray_sums.normal.x",
+    "ray_sums.normal.y",
+    "ray_sums.normal.z",
+    "ray_sums.gradient.x",
+    "ray_sums.gradient.y",
+    "ray_sums.gradient.z",
+    "ray_sums.curvature.x",
+    "ray_sums.curvature.y",
+    "ray_sums.curvature.z",
+];
+
 /// Adds the channels of layers, and the sums that they need.
-pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuError> {
+pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) {
     if layers.iter().any(|&layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts)) {
         shader.add(&[EYE_NORMAL, module!("layers")]);
         shader.stages.begin_ray.push("begin_sums");
@@ -25,20 +50,19 @@ pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) -> Result<(), GpuEr
         shader.stages.end_ray.push("end_count");
     }
     for &layer in layers {
-        let expressions = expressions(layer)?;
+        let expressions = expressions(layer);
         let is_of_one_ray = !(layer == LayerKind::Beauty || layer.is_mean());
         let channel = |expression| Channel { expression, is_of_one_ray };
         shader.stages.channels.extend(expressions.into_iter().map(channel));
     }
-    Ok(())
 }
 
 /// Expressions for the channels of a layer.
-fn expressions(layer: LayerKind) -> Result<Vec<String>, GpuError> {
+fn expressions(layer: LayerKind) -> Vec<String> {
     let mean = |name: &str| ["x", "y", "z"].map(|axis| format!("mean_of(pixel_sums.{name}.{axis})")).to_vec();
     let first = |name: &str| ["x", "y", "z"].map(|axis| format!("pixel_sums.first.{name}.{axis}")).to_vec();
     let one = |expression: &str| vec![expression.to_owned()];
-    Ok(match layer {
+    match layer {
         LayerKind::Beauty => ["mean.r", "mean.g", "mean.b", "mean.a"].map(str::to_owned).to_vec(),
         LayerKind::Z => one("pixel_sums.half"),
         LayerKind::Depth => ["first.depth", "half", "depth"].map(|name| format!("pixel_sums.{name}")).to_vec(),
@@ -51,8 +75,8 @@ fn expressions(layer: LayerKind) -> Result<Vec<String>, GpuError> {
         LayerKind::FirstCurvature => first("curvature"),
         LayerKind::FirstCurvatureAlongView => one("pixel_sums.first.curvature.z"),
         LayerKind::Counts => one("real(samples_of_pixel)"),
-        LayerKind::Halo(_) => return Err(GpuError::Missing { what: "intensities of halos", key: "picture.layers" }),
-    })
+        LayerKind::Halo(halo) => vec![Stages::intensity(halo)],
+    }
 }
 
 /// A number of a layer in the units of the picture, of one in those of the shader.

@@ -1,6 +1,6 @@
 //! Lines inside a volume ([HATCH-14] d).
 
-use super::anchor_steps;
+use super::anchor;
 use crate::buffers::buffer;
 use crate::shader::{Shader, module};
 use crate::{Gpu, GpuError, Precision};
@@ -42,7 +42,7 @@ impl LinesOnRays {
             rays_across: shot.rays_across,
             step: shot.lattice.step,
             by_ray: shot.view.perspective && shot.lattice.along == StepAlong::Ray,
-            anchor_steps: anchor_steps(shot, grid),
+            anchor_steps: anchor(shot, grid) + 0.5,
             lines: None,
         }
     }

@@ -3,6 +3,7 @@
 mod brick_distances;
 pub(crate) mod layers;
 pub(crate) mod lines;
+pub(crate) mod passes;
 pub(crate) mod present;
 
 use crate::block::Block;
@@ -33,12 +34,12 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Resu
     add_view(&mut shader.block, shot, grid)
 }
 
-/// Steps from the eye to the anchor.
-fn anchor_steps(shot: &Shot, grid: &Grid) -> f64 {
+/// The plane in the middle of the volume, counted from the eye, from which shaders count planes.
+pub(crate) fn anchor(shot: &Shot, grid: &Grid) -> f64 {
     let Shot { view, lattice, .. } = shot;
     let centre = view.to_eye(grid.centre());
     let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
-    (away / lattice.step).floor() + 0.5
+    (away / lattice.step).floor()
 }
 
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
@@ -49,10 +50,11 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    let steps = anchor_steps(shot, grid);
+    let anchor = anchor(shot, grid);
+    let steps = anchor + 0.5;
     let first = match lattice.first(view) {
         i64::MIN => -MOST_PLANES,
-        first => (first as f64 - (steps - 0.5)).clamp(-MOST_PLANES, MOST_PLANES),
+        first => (first as f64 - anchor).clamp(-MOST_PLANES, MOST_PLANES),
     };
     let inverse = grid.inverse_axes();
     let [low, high] = grid.index_box();

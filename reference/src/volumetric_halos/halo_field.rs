@@ -5,6 +5,7 @@ use super::median::median;
 use super::spans::SpanImage;
 use super::spreading::{copy, pass};
 use super::taps::{Border, Taps};
+use drypoint_scene::shot::halo;
 use std::mem::swap;
 
 /// The parameters of the spreading process.
@@ -27,20 +28,17 @@ pub struct SpreadParams {
 impl SpreadParams {
     /// Returns the distance k of the taps of pass i, 1 … N: q·2^(N − i) pixels.
     fn distance(&self, i: u32) -> f64 {
-        self.q() * (1u64 << (self.passes - i).min(63)) as f64
+        halo::tap_distance(self.stretch, self.passes - i)
     }
 
     fn q(&self) -> f64 {
-        self.stretch.max(1.0)
+        halo::tap_distance(self.stretch, 0)
     }
 
     /// Returns the pixels of the guard band: all that H at a pixel depends on lies within it. For q = 1 these are
     /// 2^N + 1 pixels, and one more with the median.
     pub fn guard(&self) -> usize {
-        let reach = |t: f64| t.ceil() as usize;
-        let passes = (1..=self.passes).rev().map(|i| reach(self.distance(i)));
-        let taps = passes.fold(reach(self.q()), usize::saturating_add);
-        taps.saturating_add(1 + usize::from(self.median))
+        halo::guard(self.passes, self.stretch, self.median)
     }
 }
 

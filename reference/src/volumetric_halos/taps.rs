@@ -1,6 +1,7 @@
 //! Reads of an image at a distance on both sides of a pixel, and beyond its border ([HALO-4], [HALO-5]).
 
 use super::spans::{Span, SpanImage};
+use drypoint_scene::shot::halo::split_distance;
 
 /// The values beyond the border of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,8 @@ impl Taps {
     /// Makes taps at a distance of t ≥ 0 pixels. A distance beyond `side`, the longer side of the image, is `side`: both
     /// read what is beyond the border.
     pub(super) fn new(t: f64, side: usize) -> Self {
-        if t < side as f64 { Self { j: t as usize, f: t - t.floor() } } else { Self { j: side, f: 0.0 } }
+        let (j, f) = split_distance(t, side);
+        Self { j, f }
     }
 
     /// The largest distance of a pixel that is read.

@@ -219,6 +219,11 @@ fn seed_value(seed: &Seeding, scene: &Scene) -> Result<Option<SeedValue>, ShotEr
 }
 
 impl HaloSpread {
+    /// Returns the guard band of [`guard`].
+    pub fn guard(&self) -> usize {
+        guard(self.passes, self.stretch, self.median)
+    }
+
     /// N and q of a picture ([HALO-5]). With `reach` N falls until taps are at least a pixel apart.
     fn new(spread: &Spreading, picture: &PictureSettings) -> Self {
         let reached = |passes: u32| f64::from((1_u32 << passes) - 1);
@@ -235,6 +240,25 @@ impl HaloSpread {
         let stretch = stretch * picture.samples.across(true) as f64;
         Self { from: spread.from, passes, delta: spread.delta, stretch, median: spread.median }
     }
+}
+
+/// Returns the distance q·2^exponent of taps, in rays; q ≥ 1. Pass i of N has the exponent N − i ([HALO-5]).
+pub fn tap_distance(stretch: f64, exponent: u32) -> f64 {
+    stretch.max(1.0) * (1u64 << exponent.min(63)) as f64
+}
+
+/// Returns the rays of the guard band: all that H at a ray depends on lies within it. For q = 1 these are 2^N + 1 rays, and
+/// one more with the median ([HALO-4]).
+pub fn guard(passes: u32, stretch: f64, median: bool) -> usize {
+    let reach = |exponent: u32| tap_distance(stretch, exponent).ceil() as usize;
+    let taps = (0..passes).map(reach).fold(reach(0), usize::saturating_add);
+    taps.saturating_add(1 + usize::from(median))
+}
+
+/// Splits a distance t ≥ 0 of taps into whole rays and a fraction. A distance beyond `side`, the longer side of the image,
+/// is `side`: both read what is beyond the border.
+pub fn split_distance(t: f64, side: usize) -> (usize, f64) {
+    if t < side as f64 { (t as usize, t - t.floor()) } else { (side, 0.0) }
 }
 
 /// The largest N.

@@ -5,7 +5,7 @@
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
 mod clipping;
-mod halo;
+pub mod halo;
 mod lattice;
 mod material;
 mod opaque_surface;

@@ -95,7 +95,7 @@ pub(crate) fn add(
 }
 
 /// Whether a stage measures something of a query.
-fn is_of(stage: &str, query: SampleQuery) -> bool {
+pub(crate) fn is_of(stage: &str, query: SampleQuery) -> bool {
     match stage {
         "measure_gradient" | "measure_magnitude" => query.gradient,
         "measure_along_ray" | "measure_along_ray_at_surface" => query.kappa == KappaSource::AlongRay,
@@ -175,16 +175,25 @@ fn coordinate(
             format!("distance_from(sample.position, {point}())")
         }
         Axis::Label => {
-            let labels = inputs.labels.ok_or(GpuError::Material)?;
-            let own = labels.grid_in(inputs.volume.anatomy());
-            add_labels(shader, labels, &own, shot.objects[0].label_lookup);
-            add_map(shader, grid, &own);
+            add_label_lookup(shader, shot, inputs)?;
             return Ok("Coordinate(0.0, label_at(sample.position))".to_owned());
         }
         // A further volume that was not handed over.
         Axis::DistanceToLabel(_) | Axis::Volume(_) => return Err(GpuError::Material),
     };
     Ok(format!("coordinate({number})"))
+}
+
+/// Adds the labels of positions, once.
+pub(crate) fn add_label_lookup(shader: &mut Shader, shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+    if shader.modules.contains(&module!("label")) {
+        return Ok(());
+    }
+    let labels = inputs.labels.ok_or(GpuError::Material)?;
+    let own = labels.grid_in(inputs.volume.anatomy());
+    add_labels(shader, labels, &own, shot.objects[0].label_lookup);
+    add_map(shader, inputs.volume.grid(), &own);
+    Ok(())
 }
 
 /// Adds three vectors.

@@ -1,0 +1,135 @@
+//! The passes of rays that are drawn each alone: all pixels, then those at edges once more.
+
+use crate::block::Block;
+use crate::buffers::{list_entry, pipeline};
+use crate::canvas::Canvas;
+use crate::{Gpu, GpuError, Precision};
+use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::Shot;
+use drypoint_scene::space::Grid;
+use std::ops::Range;
+
+/// Pixels along the side of a workgroup.
+const GROUP: u32 = 8;
+
+/// About the most samples of one submission to a card, so that no driver takes it for a fault; and to software, so that
+/// progress is heard.
+const SAMPLES_AT_ONCE: [f64; 2] = [(1u64 << 28) as f64, (1u64 << 26) as f64];
+
+/// Further rays of a pixel at an edge, across and down ([RAY-7]).
+const REFINED_ACROSS: usize = 3;
+
+/// Passes over the pixels of a picture.
+pub(crate) struct RayPasses {
+    draw: Pass,
+    /// Further rays at edges; none: no pixel is refined.
+    refinement: Option<Pass>,
+    size: [usize; 2],
+    rays_across: usize,
+    /// Samples of a row of pixels of one ray, roughly.
+    samples_a_row: f64,
+    is_beauty_alone: bool,
+}
+
+impl RayPasses {
+    /// Compiles the passes of a shot with its whole shader. Lines inside the volume have two further lists.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        (shot, grid): (&Shot, &Grid),
+        text: &str,
+        data: &wgpu::BindGroupLayout,
+        layers: &[LayerKind],
+        has_lines: bool,
+    ) -> Result<Self, GpuError> {
+        let of_lines: &[u32] = if has_lines { &[3, 4] } else { &[] };
+        let pass = |entry_point, reads: &[u32]| Pass::new(gpu, text, entry_point, &[reads, of_lines].concat(), data);
+        let planes = shot.lattice.planes(&shot.view, grid);
+        Ok(Self {
+            draw: pass("draw", &[0])?,
+            refinement: shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?,
+            size: shot.view.size,
+            rays_across: shot.rays_across,
+            samples_a_row: shot.view.size[0] as f64 * planes.max(1.0),
+            is_beauty_alone: layers == [LayerKind::Beauty],
+        })
+    }
+
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back. `lines` are the lists of lines with
+    /// their bindings.
+    pub(crate) fn draw(
+        &self,
+        canvas: &Canvas<'_>,
+        (block, precision): (&mut Block, Precision),
+        lines: &[(u32, &wgpu::Buffer)],
+        rows: Range<usize>,
+    ) -> Result<(), GpuError> {
+        let [width, height] = self.size;
+        // Edges are found in the rows around those that are refined, too.
+        let around = canvas.picture.rows_around(&rows, height);
+        block.set("top_row", around.start as f64);
+        let draw = (&self.draw, around.clone(), self.rays_across);
+        let refine = self.refinement.as_ref().map(|pass| (pass, rows.clone(), REFINED_ACROSS));
+        let passes = 1 + usize::from(refine.is_some());
+        for (number, (pass, pass_rows, across)) in std::iter::once(draw).chain(refine).enumerate() {
+            let group = canvas.group(&pass.layout, number > 0, lines)?;
+            let parts = across * across;
+            // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
+            let at_once = if self.is_beauty_alone { 1 } else { parts };
+            let most = SAMPLES_AT_ONCE[usize::from(canvas.gpu.is_software())];
+            let band = ((most / (self.samples_a_row * at_once as f64)) as usize).max(GROUP as usize);
+            for first in pass_rows.clone().step_by(band) {
+                let end = (first + band).min(pass_rows.end);
+                let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
+                block.set("first_row", first as f64);
+                block.set("end_row", end as f64);
+                for part in (0..parts).step_by(at_once) {
+                    block.set("first_part", part as f64);
+                    block.set("end_part", (part + at_once) as f64);
+                    let is_end_of_pass = end == pass_rows.end && part + at_once >= parts;
+                    let is_end_of_rows = is_end_of_pass && number + 1 == passes;
+                    let begins = number == 0 && first == 0 && part == 0;
+                    let ends = is_end_of_rows && rows.end == height;
+                    let run = |run: &mut wgpu::ComputePass<'_>| {
+                        run.set_pipeline(&pass.pipeline);
+                        run.set_bind_group(0, &group, &[]);
+                        run.set_bind_group(1, canvas.data, &[]);
+                        run.dispatch_workgroups(groups[0], groups[1], 1);
+                    };
+                    canvas.write_params(block, precision)?;
+                    canvas.submit([begins, ends], run, |picture, encoder| {
+                        if is_end_of_rows {
+                            picture.copy_back(encoder, rows.start - around.start, rows.len());
+                        } else if is_end_of_pass {
+                            picture.keep_first(encoder);
+                        }
+                    })?;
+                }
+                canvas.report((number as f64 + end as f64 / height as f64) / passes as f64)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An entry point of the shader, with the layout of group 0.
+struct Pass {
+    pipeline: wgpu::ComputePipeline,
+    layout: wgpu::BindGroupLayout,
+}
+
+impl Pass {
+    /// An entry point that writes the picture and reads lists of group 0, by their bindings.
+    fn new(
+        gpu: &Gpu,
+        text: &str,
+        entry_point: &'static str,
+        reads: &[u32],
+        data: &wgpu::BindGroupLayout,
+    ) -> Result<Self, GpuError> {
+        let lists = reads.iter().map(|&binding| list_entry(binding, true));
+        let entries: Vec<_> = lists.chain([list_entry(1, false)]).collect();
+        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
+        let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
+        Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })
+    }
+}

@@ -1,0 +1,5 @@
+// The plane of an iso-surface ([HATCH-14]): the first one behind it, whose tint it takes.
+
+fn end_plane() -> i32 {
+    return select(last_before_surface() + 1, NO_PLANE, hit >= NO_HIT);
+}

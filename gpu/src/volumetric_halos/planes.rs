@@ -1,0 +1,378 @@
+//! The passes of a picture with halos, group of planes by group of planes ([HALO-1], [HALO-8], [HALO-9]).
+
+use crate::buffers::{buffer, entry, list_entry, pipeline};
+use crate::canvas::Canvas;
+use crate::shader::Shader;
+use crate::{Gpu, GpuError, Precision, ray};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::halo::{split_distance, tap_distance};
+use drypoint_scene::shot::{HaloKind, HaloParams, Shot};
+use drypoint_scene::space::Grid;
+
+/// Pixels along the side of a workgroup.
+const GROUP: u32 = 8;
+
+/// About the most pixels that the passes of one submission write, so that no driver takes it for a fault.
+const PIXELS_AT_ONCE: u64 = 1 << 26;
+
+/// Bytes of a group of planes as a shader reads it.
+const GROUP_BYTES: u64 = 16;
+
+/// Rays across and down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ImageSize {
+    /// Those of the picture.
+    pub(crate) rays: [usize; 2],
+    /// Those of the images, with the guard band.
+    pub(crate) image: [usize; 2],
+    /// Rays of the guard band on each side.
+    pub(crate) guard: usize,
+}
+
+/// The size of a shot's images.
+pub(crate) fn image_size(shot: &Shot) -> ImageSize {
+    let guard = shot.halos.list.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0);
+    let rays = shot.view.size.map(|n| n * shot.rays_across);
+    // Images that do not fit are refused by their bytes.
+    ImageSize { rays, image: rays.map(|n| n.saturating_add(guard.saturating_mul(2))), guard }
+}
+
+/// The largest N.
+pub(crate) fn most_passes(list: &[HaloParams]) -> u32 {
+    list.iter().map(|halo| halo.spread.passes).max().unwrap_or(0)
+}
+
+/// Whole rays and the fraction of the distance of taps.
+pub(crate) fn taps(halo: &HaloParams, exponent: u32, size: ImageSize) -> [f64; 2] {
+    let side = size.image[0].max(size.image[1]);
+    let (j, f) = split_distance(tap_distance(halo.spread.stretch, exponent), side);
+    [j as f64, f]
+}
+
+/// Planes whose rays go on together: M of some halo, or fewer where groups of several halos end apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct PlaneGroup {
+    /// The first plane and the last one, counted from the eye.
+    planes: [i64; 2],
+    /// Whether a sample can seed.
+    seeds: bool,
+    /// N of the halos whose groups end here; none: nobody asks for their intensities.
+    passes: Option<u32>,
+}
+
+/// The groups of planes of a picture whose samples lie on the planes first..=last.
+fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last]: [i64; 2]) -> Vec<PlaneGroup> {
+    let end_of = |halo: &HaloParams, k: i64| {
+        let every = halo.every.max(1);
+        (k.div_euclid(every) + 1) * every - 1
+    };
+    // Emissive halos go on through the group behind the last seeds.
+    let goes_on = |(i, halo): (usize, &HaloParams)| match halo.kind == HaloKind::Emissive || is_watched(i) {
+        true => end_of(halo, end_of(halo, last) + 1),
+        false => last,
+    };
+    let end_of_all = halos.iter().enumerate().map(goes_on).max().unwrap_or(last);
+    let mut groups = Vec::new();
+    let mut next = first;
+    while next <= end_of_all {
+        let end = halos.iter().map(|halo| end_of(halo, next)).min().unwrap_or(end_of_all).min(end_of_all);
+        let ended = halos.iter().filter(|halo| end_of(halo, end) == end);
+        let passes = if end < end_of_all { ended.map(|halo| halo.spread.passes).max() } else { None };
+        groups.push(PlaneGroup { planes: [next, end], seeds: next <= last, passes });
+        next = end + 1;
+    }
+    groups
+}
+
+/// The planes, counted from the eye, on which any ray can have a sample or an iso-surface.
+fn reached(shot: &Shot, grid: &Grid) -> [i64; 2] {
+    let Shot { view, lattice, .. } = shot;
+    let corners = grid.world_corners().map(|corner: DVec3| view.to_eye(corner));
+    let [near, far] = [f64::min, f64::max].map(|end| corners.iter().map(|p| -p.z).reduce(end).unwrap_or(0.0));
+    let plane = |depth: f64| (depth / lattice.step).floor() as i64;
+    [(plane(near) - 1).max(lattice.first(view)), plane(far) + 2]
+}
+
+/// Halos of a picture on a graphics card: images and states of rays, and the passes over them.
+pub(crate) struct HaloPlanes {
+    size: ImageSize,
+    /// Four halos to a vector of the images.
+    fours: u32,
+    pixels: [u32; 2],
+    halos: Vec<HaloParams>,
+    watched: Vec<bool>,
+    groups: Vec<PlaneGroup>,
+    anchor: i64,
+    start: wgpu::ComputePipeline,
+    rays: wgpu::ComputePipeline,
+    seeds: wgpu::ComputePipeline,
+    median: Option<wgpu::ComputePipeline>,
+    source: wgpu::ComputePipeline,
+    spread: wgpu::ComputePipeline,
+    end: wgpu::ComputePipeline,
+    finish: wgpu::ComputePipeline,
+    params_layout: wgpu::BindGroupLayout,
+    state_layout: wgpu::BindGroupLayout,
+    /// Numbers of rays, of seeds' rays, then S, H and O.
+    state: [wgpu::Buffer; 5],
+    images: Images,
+}
+
+/// H₀ and two images in turn, as passes read and write them.
+struct Images {
+    /// Filtered seeds: written to the first image.
+    median: wgpu::BindGroup,
+    /// H₀ from the seeds, or from the first image.
+    source: wgpu::BindGroup,
+    /// From H₀ to the first image.
+    first: wgpu::BindGroup,
+    /// From the first image to the second one, and back.
+    turns: [wgpu::BindGroup; 2],
+}
+
+impl HaloPlanes {
+    /// Makes the images and the passes of a shot; `text` is the whole shader, of so many channels.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shot: &Shot,
+        grid: &Grid,
+        (shader, text): (&Shader, &str),
+        data_layout: &wgpu::BindGroupLayout,
+        precision: Precision,
+    ) -> Result<Self, GpuError> {
+        let size = image_size(shot);
+        let halos = shot.halos.list.clone();
+        let fours = halos.len().div_ceil(4);
+        let pixels = (size.image[0] as u64).saturating_mul(size.image[1] as u64);
+        let rays = (size.rays[0] as u64).saturating_mul(size.rays[1] as u64);
+        let stages = shader.stages.halos.clone().unwrap_or_default();
+        // Buffers.
+        let storage = wgpu::BufferUsages::STORAGE;
+        let new = |what, numbers: u64, usage| empty(gpu, what, numbers.saturating_mul(precision.size()), usage);
+        let image = || new("an image of halos", pixels.saturating_mul(4 * fours as u64), storage);
+        let state = [
+            new("the rays of a picture with halos", rays.saturating_mul(6 + stages.kept_numbers() as u64), storage)?,
+            new("the rays of seeds", pixels.saturating_mul(2 + stages.seed_kept.len() as u64), storage)?,
+            image()?,
+            image()?,
+            image()?,
+        ];
+        let [width, height] = shot.view.size;
+        // Layouts and passes.
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries };
+            gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))
+        };
+        let params_layout = layout("parameters", &[list_entry(0, true), list_entry(1, false)])?;
+        let group = wgpu::BindGroupLayoutEntry {
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: true,
+                min_binding_size: wgpu::BufferSize::new(GROUP_BYTES),
+            },
+            ..list_entry(0, true)
+        };
+        let entries: Vec<_> = std::iter::once(group).chain((1..=5).map(|binding| list_entry(binding, false))).collect();
+        let state_layout = layout("rays", &entries)?;
+        let image_layout = layout("images", &[list_entry(0, true), list_entry(1, true), list_entry(2, false)])?;
+        let pass = |entry_point, with_images: bool| {
+            let mut groups = vec![&params_layout, data_layout, &state_layout];
+            groups.extend(with_images.then_some(&image_layout));
+            pipeline(gpu, text.to_owned(), entry_point, &groups)
+        };
+        let has_median = halos.iter().any(|halo| halo.spread.median);
+        let images = Images::new(gpu, &image_layout, [image()?, image()?, image()?])?;
+        let watched = (0..halos.len()).map(|i| shot.layers.contains(&LayerKind::Halo(i))).collect();
+        let mut planes = Self {
+            size,
+            fours: fours as u32,
+            pixels: [width as u32, height as u32],
+            halos,
+            watched,
+            groups: Vec::new(),
+            anchor: 0,
+            start: pass("halo_start", false)?,
+            rays: pass("halo_rays", false)?,
+            seeds: pass("halo_seeds", false)?,
+            median: has_median.then(|| pass("halo_median", true)).transpose()?,
+            source: pass("halo_source", true)?,
+            spread: pass("halo_spread", true)?,
+            end: pass("halo_end", true)?,
+            finish: pass("halo_pixels", false)?,
+            params_layout,
+            state_layout,
+            state,
+            images,
+        };
+        planes.turn(shot, grid);
+        Ok(planes)
+    }
+
+    /// Takes the camera of another shot.
+    pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
+        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid));
+        self.anchor = ray::anchor(shot, grid) as i64;
+    }
+
+    /// Draws a frame.
+    pub(crate) fn draw(&self, canvas: &Canvas<'_>) -> Result<(), GpuError> {
+        let gpu = canvas.gpu;
+        let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
+        let (records, firsts) = self.records(stride);
+        let group_list = buffer(gpu, "the groups of planes", &records, wgpu::BufferUsages::STORAGE)?;
+        let [params, state] = gpu.attempt("the halos", || {
+            let params_entries = [entry(0, canvas.params), entry(1, &canvas.picture.out)];
+            let planes =
+                wgpu::BufferBinding { buffer: &group_list, offset: 0, size: wgpu::BufferSize::new(GROUP_BYTES) };
+            let planes = wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(planes) };
+            let state = (1..).zip(&self.state).map(|(binding, buffer)| entry(binding, buffer));
+            let state_entries: Vec<_> = std::iter::once(planes).chain(state).collect();
+            let group = |layout, entries: &[wgpu::BindGroupEntry<'_>]| {
+                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("halos"), layout, entries })
+            };
+            [group(&self.params_layout, &params_entries), group(&self.state_layout, &state_entries)]
+        })?;
+        let across = |[x, y]: [usize; 2]| [(x as u32).div_ceil(GROUP), (y as u32).div_ceil(GROUP), 1];
+        let of_image = across(self.size.image);
+        let of_fours = [of_image[0], of_image[1], self.fours];
+        let image_pixels = (self.size.image[0] * self.size.image[1]) as u64;
+        let mut at = 0;
+        loop {
+            // The groups of one submission.
+            let mut end = at;
+            let mut written = 0;
+            while end < self.groups.len() && written < PIXELS_AT_ONCE {
+                let group = &self.groups[end];
+                let planes = (group.planes[1] - group.planes[0] + 1).unsigned_abs();
+                let images = u64::from(group.passes.map_or(0, |passes| passes + 2) * self.fours);
+                written += image_pixels * (2 * planes + images);
+                end += 1;
+            }
+            let is_first = at == 0;
+            let is_last = end >= self.groups.len();
+            let run = |run: &mut wgpu::ComputePass<'_>| {
+                run.set_bind_group(0, &params, &[]);
+                run.set_bind_group(1, canvas.data, &[]);
+                run.set_bind_group(2, &state, &[0]);
+                if is_first {
+                    run.set_pipeline(&self.start);
+                    run.dispatch_workgroups(of_image[0], of_image[1], 1);
+                }
+                for at in at..end {
+                    let group = &self.groups[at];
+                    let record = |exponent: u32| ((firsts[at] + u64::from(exponent)) * stride) as u32;
+                    run.set_bind_group(2, &state, &[record(0)]);
+                    let of_rays = across(self.size.rays);
+                    run.set_pipeline(&self.rays);
+                    run.dispatch_workgroups(of_rays[0], of_rays[1], 1);
+                    if group.seeds {
+                        run.set_pipeline(&self.seeds);
+                        run.dispatch_workgroups(of_image[0], of_image[1], 1);
+                    }
+                    if let Some(passes) = group.passes {
+                        self.generate(run, &state, passes, record, of_fours);
+                    }
+                }
+                if is_last {
+                    let of_pixels = across(self.pixels.map(|n| n as usize));
+                    run.set_pipeline(&self.finish);
+                    run.dispatch_workgroups(of_pixels[0], of_pixels[1], 1);
+                }
+            };
+            canvas.submit([is_first, is_last], run, |picture, encoder| {
+                if is_last {
+                    picture.copy_back(encoder, 0, self.pixels[1] as usize);
+                }
+            })?;
+            canvas.report(end as f64 / self.groups.len().max(1) as f64)?;
+            if is_last {
+                return Ok(());
+            }
+            at = end;
+        }
+    }
+
+    /// From the seeds of groups that end to intensities.
+    fn generate(
+        &self,
+        run: &mut wgpu::ComputePass<'_>,
+        state: &wgpu::BindGroup,
+        passes: u32,
+        record: impl Fn(u32) -> u32,
+        [x, y, z]: [u32; 3],
+    ) {
+        if let Some(median) = &self.median {
+            run.set_pipeline(median);
+            run.set_bind_group(3, &self.images.median, &[]);
+            run.dispatch_workgroups(x, y, z);
+        }
+        run.set_pipeline(&self.source);
+        run.set_bind_group(3, &self.images.source, &[]);
+        run.dispatch_workgroups(x, y, z);
+        let last = passes.saturating_sub(1);
+        for i in 0..=last {
+            run.set_pipeline(if i == last { &self.end } else { &self.spread });
+            run.set_bind_group(2, state, &[record(last - i)]);
+            let images = if i == 0 { &self.images.first } else { &self.images.turns[(i as usize - 1) % 2] };
+            run.set_bind_group(3, images, &[]);
+            run.dispatch_workgroups(x, y, z);
+        }
+    }
+
+    /// The groups of planes as shaders read them, one for each exponent of taps, and the first one of each group.
+    fn records(&self, stride: u64) -> (Vec<u8>, Vec<u64>) {
+        let mut firsts = Vec::new();
+        let mut records = Vec::new();
+        for group in &self.groups {
+            firsts.push(records.len() as u64 / stride);
+            for exponent in 0..group.passes.unwrap_or(0).max(1) {
+                let [first, last] = group.planes;
+                // Planes are counted in 23 bits.
+                let words =
+                    [first - self.anchor, last - self.anchor, last, i64::from(exponent)].map(|word| word as i32);
+                records.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+                records.resize(records.len().next_multiple_of(stride as usize), 0);
+            }
+        }
+        records.resize(records.len().max(stride as usize), 0);
+        (records, firsts)
+    }
+}
+
+impl Images {
+    fn new(
+        gpu: &Gpu,
+        layout: &wgpu::BindGroupLayout,
+        [source, first, second]: [wgpu::Buffer; 3],
+    ) -> Result<Self, GpuError> {
+        // H₀, the image that is read, the image that is written.
+        let group = |[h0, before, after]: [&wgpu::Buffer; 3]| {
+            let entries = [entry(0, h0), entry(1, before), entry(2, after)];
+            let descriptor = wgpu::BindGroupDescriptor { label: Some("images"), layout, entries: &entries };
+            gpu.device.create_bind_group(&descriptor)
+        };
+        gpu.attempt("the halos", || Self {
+            median: group([&second, &second, &first]),
+            source: group([&first, &first, &source]),
+            first: group([&source, &source, &first]),
+            turns: [group([&source, &first, &second]), group([&source, &second, &first])],
+        })
+    }
+}
+
+/// A buffer that shaders fill.
+fn empty(gpu: &Gpu, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
+    let limits = gpu.device.limits();
+    let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    if bytes > most {
+        return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
+    }
+    let descriptor = wgpu::BufferDescriptor {
+        label: Some(what),
+        size: bytes.max(16).next_multiple_of(16),
+        usage,
+        mapped_at_creation: false,
+    };
+    gpu.attempt(what, || gpu.device.create_buffer(&descriptor))
+}

@@ -1,0 +1,12 @@
+// h_v: the opacity of a transfer function over two quantities ([HALO-2], [STF-4]). What it asks for becomes part of the
+// attributes.
+
+fn ask_opacity(ray: Ray, sample: Sample) {
+    if (!(node_place(locate_value(sample.s)).alpha_u > 0.0)) {
+        return;
+    }
+    seed_known = measured_first(ray, sample);
+    if (is_seen(ray, sample, seed_known)) {
+        seed_alpha_u = node_patch.alpha_u;
+    }
+}

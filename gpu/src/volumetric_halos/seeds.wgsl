@@ -1,0 +1,152 @@
+// The seeds of halos (3.1, [HALO-2], [HALO-3]). A seed depends on the field at its sample alone, so seeds have rays of their
+// own, in the guard band about the picture too, with samples on the same planes.
+
+// Numbers of a ray of the images: the plane of its next sample, its last one, then what effects keep.
+const SEED_KEPT = 2;
+
+@group(2) @binding(2) var<storage, read_write> seed_ray_numbers: array<real>;
+
+// What alpha_u asks of a sample, and alpha_u.
+var<private> seed_known: Attributes;
+var<private> seed_alpha_u: real;
+
+fn seed_place(number: i32, ray: i32) -> i32 {
+    return number * (IMAGE_X * IMAGE_Y) + ray;
+}
+
+// x^y for x in [0, 1]; 0^0 = 1. Whole exponents are repeated products. Below the normal numbers of f32 x counts as 0.
+fn seed_power(x: real, y: real) -> real {
+    if (y == 0.0 || x >= 1.0) {
+        return 1.0;
+    }
+    if (floor(y) == y && y <= 64.0) {
+        return pow_whole(x, u32(y));
+    }
+    if (x < 1.2e-38) {
+        return 0.0;
+    }
+    return power(x, y);
+}
+
+// sqrt(x (2 - x)), x = T kappa clamped to [0, 1]: the threshold of [STF-7] for the halo's own T.
+fn seed_tau(t_kappa: real) -> real {
+    let x = clamp_01(t_kappa);
+    return sqrt(x * (2.0 - x));
+}
+
+// (1 - |n.v|)^b, or clamp(1 - |n.v|/tau).
+fn seed_side(halo: i32, n_dot_v: real, kappa: real) -> real {
+    if (halos[halo].by_curvature == 0.0) {
+        // Of unit vectors the product can be more than 1 by its rounding.
+        return seed_power(max(1.0 - n_dot_v, 0.0), halos[halo].side);
+    }
+    let tau = seed_tau(abs(kappa) * halos[halo].side);
+    if (!(tau > 0.0)) {
+        return 0.0;
+    }
+    return max(1.0 - n_dot_v / tau, 0.0);
+}
+
+// s = clamp(h |g|^a side); 0 below the floor.
+fn seed_strength(halo: i32, h: real, n_dot_v: real, magnitude: real, kappa: real) -> real {
+    if (n_dot_v > halos[halo].most_frontal) {
+        return 0.0;
+    }
+    let side = seed_side(halo, n_dot_v, kappa);
+    let s = min(h * seed_power(magnitude, halos[halo].gradient_exponent) * side, 1.0);
+    return select(s, real(0.0), s < halos[halo].floor);
+}
+
+// Adds a seed of a halo to those of the group's planes before ([HALO-8]).
+fn add_seed(halo: i32, place: i32, s: real) {
+    let at = vector_of(halo, place);
+    let before = seed_image[at][halo % 4];
+    let sum = select(max(before, s), before + s / halos[halo].every, halos[halo].is_mean == 1.0);
+    seed_image[at][halo % 4] = sum;
+}
+
+// Adds the seeds of a sample.
+fn sow(ray: Ray, sample: Sample, place: i32) {
+    seed_known = Attributes();
+    seed_alpha_u = 0.0;
+    ask_opacity(ray, sample);
+    var a = seed_known;
+    var is_asked = false;
+    for (var halo = 0; halo < HALOS; halo++) {
+        let h = seed_height(halo, sample);
+        // The other factors are at most 1.
+        if (!(h > 0.0) || h < halos[halo].floor) {
+            continue;
+        }
+        if (!is_asked) {
+            is_asked = true;
+            a = seed_rest(ray, sample, a);
+            // Only the field's own normal makes a seed; on a cut the cut's counts then.
+            if (!a.has_normal) {
+                return;
+            }
+            a = seed_on_cut(ray, sample, a);
+        }
+        let s = seed_strength(halo, seed_direction(halo, h, ray, a), abs(dot(a.normal, ray.v)), a.magnitude, a.kappa);
+        if (s > 0.0) {
+            add_seed(halo, place, s);
+        }
+    }
+}
+
+// Starts all rays before all planes.
+@compute @workgroup_size(8, 8)
+fn halo_start(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = vec2<i32>(id.xy);
+    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+        return;
+    }
+    let place = at.y * IMAGE_X + at.x;
+    for (var i = place; i < IMAGE_X * IMAGE_Y * HALO_VECTORS; i += IMAGE_X * IMAGE_Y) {
+        seed_image[i] = vec4<real>();
+        halo_image[i] = vec4<real>();
+        occlusion_image[i] = vec4<real>();
+    }
+    let point = image_point(at);
+    let ray = ray_through(point.x, point.y);
+    let run = seeds_left(ray, samples_inside(ray));
+    seed_ray_numbers[seed_place(0, place)] = real(run.x);
+    seed_ray_numbers[seed_place(1, place)] = real(run.y);
+    keep_seed(place);
+    let own = at - GUARD;
+    if (all(own >= vec2(0)) && own.x < RAYS_X && own.y < RAYS_Y) {
+        start_ray(own.y * RAYS_X + own.x, ray);
+    }
+}
+
+// Adds the seeds of a group's planes.
+@compute @workgroup_size(8, 8)
+fn halo_seeds(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = vec2<i32>(id.xy);
+    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+        return;
+    }
+    let place = at.y * IMAGE_X + at.x;
+    var k = max(i32(seed_ray_numbers[seed_place(0, place)]), plane_group.first);
+    let last = min(i32(seed_ray_numbers[seed_place(1, place)]), plane_group.last);
+    if (k > last) {
+        return;
+    }
+    let point = image_point(at);
+    let ray = ray_through(point.x, point.y);
+    resume_seed(place, ray);
+    for (; k <= last; k++) {
+        var sample: Sample;
+        sample.k = k;
+        sample.position = position(ray, k);
+        sample.at = locate(sample.position);
+        let next = next_seed_plane(ray, sample);
+        if (next > k) {
+            k = next - 1;
+            continue;
+        }
+        sample.s = value_at(sample.at);
+        sow(ray, sample, place);
+    }
+    seed_ray_numbers[seed_place(0, place)] = real(k);
+}

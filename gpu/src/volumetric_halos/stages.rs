@@ -1,0 +1,116 @@
+//! The functions that rays and seeds of halos call at each step.
+
+use std::fmt::Write;
+
+/// A number that a ray keeps from group to group of planes: a private variable of the shader.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Kept {
+    name: &'static str,
+    is_whole: bool,
+}
+
+impl Kept {
+    /// A number.
+    pub(crate) fn real(name: &'static str) -> Self {
+        Self { name, is_whole: false }
+    }
+
+    /// A whole number.
+    pub(crate) fn whole(name: &'static str) -> Self {
+        Self { name, is_whole: true }
+    }
+}
+
+/// Functions by their names, called in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Stages {
+    /// Numbers that rays of the picture keep.
+    pub(crate) kept: Vec<Kept>,
+    /// Numbers that rays of seeds keep.
+    pub(crate) seed_kept: Vec<Kept>,
+    /// When any ray goes on.
+    pub(crate) resume: Vec<&'static str>,
+    /// When a ray of the picture has its numbers again.
+    pub(crate) after_resume: Vec<&'static str>,
+    /// From the run of samples in the box to those that can seed.
+    pub(crate) left: Vec<&'static str>,
+    /// From a sample to the next plane that can seed.
+    pub(crate) next: Vec<&'static str>,
+    /// The factors of h that need no gradient.
+    pub(crate) height: Vec<&'static str>,
+    /// Attributes of a sample that can seed.
+    pub(crate) measured: Vec<&'static str>,
+    /// Attributes of such a sample on a cut.
+    pub(crate) on_cut: Vec<&'static str>,
+    /// The halos whose intensities layers show.
+    pub(crate) watched: Vec<usize>,
+}
+
+impl Stages {
+    /// The numbers that a ray of the picture has of its own, beside its colour and its planes.
+    pub(crate) fn kept_numbers(&self) -> usize {
+        self.kept.len() + self.watched.len()
+    }
+
+    /// The place of a halo among those that layers show.
+    pub(crate) fn intensity(halo: usize) -> String {
+        format!("halo_sum_{halo} / real(RAYS_ACROSS * RAYS_ACROSS)")
+    }
+
+    /// The text of the functions.
+    pub(crate) fn wgsl(&self) -> String {
+        let mut text = String::new();
+        for (of, kept) in [("ray", &self.kept), ("seed", &self.seed_kept)] {
+            let numbers = if of == "ray" { "ray_numbers" } else { "seed_ray_numbers" };
+            let at = |i: usize| format!("{numbers}[{of}_place({}_KEPT + {i}, number)]", of.to_uppercase());
+            let resume = kept.iter().enumerate().map(|(i, kept)| match kept.is_whole {
+                true => format!("{} = i32({});", kept.name, at(i)),
+                false => format!("{} = {};", kept.name, at(i)),
+            });
+            let again = self.resume.iter().map(|stage| format!("{stage}(ray);"));
+            let after = self.after_resume.iter().filter(|_| of == "ray").map(|stage| format!("{stage}();"));
+            function(&mut text, &format!("resume_{of}(number: i32, ray: Ray)"), resume.chain(again).chain(after), None);
+            let keep = kept.iter().enumerate().map(|(i, kept)| format!("{} = real({});", at(i), kept.name));
+            function(&mut text, &format!("keep_{of}(number: i32)"), keep, None);
+        }
+        let left = self.left.iter().map(|stage| format!("left = {stage}(ray, left);"));
+        let left = std::iter::once("var left = run;".to_owned()).chain(left);
+        function(&mut text, "seeds_left(ray: Ray, run: vec2<i32>) -> vec2<i32>", left, Some("left"));
+        let next = self.next.iter().map(|stage| format!("next = max(next, {stage}(ray, sample));"));
+        let next = std::iter::once("var next = sample.k;".to_owned()).chain(next);
+        function(&mut text, "next_seed_plane(ray: Ray, sample: Sample) -> i32", next, Some("next"));
+        let height = self.height.iter().map(|stage| format!("h = {stage}(halo, sample, h);"));
+        let height = std::iter::once("var h = real(1.0);".to_owned()).chain(height);
+        function(&mut text, "seed_height(halo: i32, sample: Sample) -> real", height, Some("h"));
+        for (name, stages) in [("seed_rest", &self.measured), ("seed_on_cut", &self.on_cut)] {
+            let lines = stages.iter().map(|stage| format!("a = {stage}(ray, sample, a);"));
+            let lines = std::iter::once("var a = known;".to_owned()).chain(lines);
+            let head = format!("{name}(ray: Ray, sample: Sample, known: Attributes) -> Attributes");
+            function(&mut text, &head, lines, Some("a"));
+        }
+        // The largest intensities of a ray, and their sums over a pixel.
+        for halo in &self.watched {
+            let _ = writeln!(text, "\nvar<private> halo_sum_{halo}: real;");
+        }
+        let at = |i: usize| format!("ray_numbers[ray_place(RAY_KEPT + {}, number)]", self.kept.len() + i);
+        let lines = (0..self.watched.len()).map(|i| format!("{} = 0.0;", at(i)));
+        function(&mut text, "begin_watch(number: i32)", lines, None);
+        let largest = |(i, halo): (usize, &usize)| format!("{} = max({}, intensity_of({halo}, place));", at(i), at(i));
+        function(&mut text, "watch(number: i32, place: i32)", self.watched.iter().enumerate().map(largest), None);
+        let sum = |(i, halo): (usize, &usize)| format!("halo_sum_{halo} += {};", at(i));
+        function(&mut text, "sum_intensities(number: i32)", self.watched.iter().enumerate().map(sum), None);
+        text
+    }
+}
+
+/// Appends a function.
+fn function(text: &mut String, head: &str, lines: impl Iterator<Item = String>, result: Option<&str>) {
+    let _ = write!(text, "\nfn {head} {{\n");
+    for line in lines {
+        let _ = writeln!(text, "    {line}");
+    }
+    if let Some(result) = result {
+        let _ = writeln!(text, "    return {result};");
+    }
+    text.push_str("}\n");
+}

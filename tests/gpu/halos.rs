@@ -1,0 +1,265 @@
+//! Volumetric halos (Bruckner and Gröller 2007): shaders in f64 equal the reference to 10⁻⁹.
+
+use crate::double::differences;
+use crate::two_quantities::{labels, styles, torus};
+use crate::{field, gpu};
+use drypoint::gpu::{GpuJob, Precision};
+use drypoint::job::Job;
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::space::Grid;
+
+/// A torus seen from the side, so that it lies before itself.
+const TORUS: &str = r##"
+drypoint = 1
+[volume]
+phantom = { name = "torus", size = 32 }
+[camera]
+direction = [0.3, 1, -0.4]
+[picture]
+size = [64, 48]
+PICTURE
+[transfer]
+kind = "regular"
+nodes = [{ at = 100, color = "#804020", opacity = 0 }, { at = 128, color = "#ffcc88", opacity = 0.3 },
+         { at = 140, color = "#88ccff", opacity = 0.9 }]
+[shading]
+"##;
+
+/// Scenes of a torus with further tables, and keys in the place of `samples`.
+pub(crate) fn scene(picture: &str, tables: &str) -> String {
+    let samples = if picture.contains("samples") { "" } else { "samples = 1\n" };
+    let background = if picture.contains("background") { "" } else { "background = \"#d0c8b0\"\n" };
+    TORUS.replace("PICTURE\n", &format!("{samples}{background}{picture}\n")) + tables
+}
+
+/// Compares scenes: a name, keys of the picture, further tables.
+fn check(scenes: &[(&str, &str, &str)]) {
+    for (name, picture, tables) in scenes {
+        let Some(found) = differences(&scene(picture, tables)) else { return };
+        println!("{name}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
+        assert!(found[0] < 1e-9, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn one_occlusive_halo() {
+    check(&[("occlusive", "", "[[halo]]\n")]);
+}
+
+#[test]
+fn emissive_halos() {
+    check(&[
+        ("emissive", "", "[[halo]]\nkind = \"emissive\"\n"),
+        ("emissive, M = 4", "", "[[halo]]\nkind = \"emissive\"\nevery = 4\n"),
+        ("encoded", "blend_space = \"srgb\"", "[[halo]]\nkind = \"emissive\"\n[[halo]]\nseed.by = \"curvature\"\n"),
+        ("coarse", "", "[[halo]]\nkind = \"emissive\"\nevery = 3\n[sampling]\nstep = \"0.8 voxel\"\n"),
+    ]);
+}
+
+#[test]
+fn groups_of_planes() {
+    check(&[
+        ("M = 2", "", "[[halo]]\nevery = 2\n"),
+        ("M = 4, mean", "", "[[halo]]\nevery = 4\naccumulate = \"mean\"\n"),
+        ("M = 7, maximum", "", "[[halo]]\nkind = \"emissive\"\nevery = 7\naccumulate = \"max\"\n"),
+        (
+            "groups that end apart",
+            "",
+            "[[halo]]\nevery = 3\n[[halo]]\nkind = \"emissive\"\nevery = 4\n[[halo]]\nkind = \"emissive\"\n",
+        ),
+    ]);
+}
+
+/// Five halos of both kinds: more than a vector of the images has channels.
+pub(crate) const FIVE: &str = r##"
+[[halo]]
+name = "rim"
+kind = "emissive"
+seed.by = "curvature"
+profile = [{ at = 0.1, color = "white", opacity = 0 }, { at = 0.3, color = "white" }]
+[[halo]]
+name = "shade"
+seed = { by = "curvature", thickness = "2 voxels" }
+profile = [{ at = 0, color = "black", opacity = 0 }, { at = 1, color = "black", opacity = 0.9 }]
+tints = ["rim", "glow"]
+[[halo]]
+exponents = [0.5, 3]
+profile = [{ at = 0, color = "red", opacity = 0.1 }, { at = 0.5, color = "blue", opacity = 0.8 }]
+opacity = 0.5
+spread = { passes = 2, delta = 0.95 }
+[[halo]]
+name = "glow"
+kind = "emissive"
+exponents = "printed"
+spread = { passes = 3, from = "seeds" }
+[[halo]]
+spread = { passes = 0, delta = 0.7 }
+seed.value = [[90, 0], [128, 1], [150, 0.5]]
+"##;
+
+#[test]
+fn several_halos() {
+    check(&[
+        (
+            "two occlusive ones",
+            "",
+            "[[halo]]\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n[[halo]]\nseed.by = \"curvature\"\n",
+        ),
+        ("five", "", FIVE),
+        ("five, encoded", "blend_space = \"srgb\"", FIVE),
+    ]);
+}
+
+#[test]
+fn seeds_of_halos() {
+    check(&[
+        ("printed exponents", "", "[[halo]]\nexponents = \"printed\"\n"),
+        ("exponents", "", "[[halo]]\nexponents = [0.7, 4]\n"),
+        ("no exponents", "", "[[halo]]\nexponents = [0, 0]\n"),
+        ("curvature", "", "[[halo]]\nseed.by = \"curvature\"\n"),
+        (
+            "curvature from Hessians",
+            "",
+            "[[halo]]\nseed = { by = \"curvature\", thickness = \"2 voxels\" }\n[contours]\nkappa = \"exact\"\n",
+        ),
+        ("nodes", "", "[[halo]]\nseed.value = [[100, 0], [128, 1], [128, 0.5], [150, 0]]\n"),
+        ("every value", "", "[[halo]]\nseed.by = \"curvature\"\nseed.value = [[0, 1]]\n"),
+        ("direction", "", "[[halo]]\nseed.direction = { toward = 135, width = 90, softness = 40 }\n"),
+        ("direction without softness", "", "[[halo]]\nseed.direction = { toward = -20, width = 120, softness = 0 }\n"),
+        ("focus", "", "[[halo]]\nseed.focus = { at = [[20, 10, 15]], inner = 4, falloff = 8 }\n"),
+        (
+            "polyline",
+            "",
+            "[[halo]]\nkind = \"emissive\"\nseed.focus = { at = [[5, 6, 7], [20, 10, 15], [20, 30, 15]], inner = 2, falloff = 5 }\n",
+        ),
+        ("focus with a step", "", "[[halo]]\nseed.focus = { at = [[20, 10, 15]], inner = 7, falloff = 0 }\n"),
+        ("no floor", "", "[[halo]]\nfloor = 0\n"),
+    ]);
+}
+
+#[test]
+fn spreading_of_halos() {
+    check(&[
+        ("seeds", "", "[[halo]]\nspread.from = \"seeds\"\n"),
+        ("median", "", "[[halo]]\nspread.median = true\nexponents = [0.2, 2]\n"),
+        (
+            "median of one of two",
+            "",
+            "[[halo]]\nspread.median = true\nexponents = [0.2, 2]\n[[halo]]\nkind = \"emissive\"\n",
+        ),
+        ("delta 1", "", "[[halo]]\nspread.delta = 1\n"),
+        ("reach", "", "[[halo]]\nspread.reach = \"31 %\"\n"),
+        ("short reach", "", "[[halo]]\nspread.reach = \"5 %\"\n"),
+        ("print", "dpi = 300", "[[halo]]\nspread.reach = \"3 mm\"\n"),
+        ("four rays", "samples = 2", "[[halo]]\n[[halo]]\nkind = \"emissive\"\n"),
+        ("automatic rays", "samples = \"auto\"", "[[halo]]\n"),
+        ("nine rays and reach", "samples = 3", "[[halo]]\nspread.reach = \"11 %\"\nkind = \"emissive\"\n"),
+    ]);
+}
+
+#[test]
+fn halos_beside_other_effects() {
+    let layers = "layers = [\"beauty\", \"halo0\", \"Z\", \"normal\", \"gradient\", \"depth\", \"first\", \"first.normal\", \"halo1\"]";
+    check(&[
+        ("layers", layers, "[[halo]]\n[[halo]]\nkind = \"emissive\"\nevery = 2\n"),
+        ("layers of four rays", &format!("samples = 2\n{layers}"), "[[halo]]\n[[halo]]\nkind = \"emissive\"\n"),
+        (
+            "cut",
+            "",
+            "[[halo]]\nseed.by = \"curvature\"\n[[halo]]\nkind = \"emissive\"\n[[clip]]\npoint = [15, 15, 15]\nnormal = [0.2, -1, 0]\nspace = \"index\"\ncap = \"#ff3010c0\"\n",
+        ),
+        ("no background", "background = \"none\"", "[[halo]]\nkind = \"emissive\"\n"),
+        ("silhouettes", "", "[[halo]]\n[shading.silhouette]\n"),
+        (
+            "kernel",
+            "",
+            "[[halo]]\nseed.by = \"curvature\"\n[sampling]\nkernel = \"bspline-smooth\"\ngradient = \"sobel\"\n",
+        ),
+        ("surface", "", "[[halo]]\n[[halo]]\nkind = \"emissive\"\n[surface]\niso = 132\n"),
+    ]);
+}
+
+/// The volume is met at once in parallel projection, and planes lie on both sides of the eye.
+#[test]
+fn cameras() {
+    for (name, camera) in
+        [("orthographic", "projection = \"orthographic\"\nheight = 40\n"), ("inside", "eye = [16, 10, 15]\n")]
+    {
+        for kind in ["emissive", "occlusive"] {
+            let scene = scene("", &format!("[[halo]]\nkind = \"{kind}\"\nevery = 2\n"));
+            let scene = scene.replace("[camera]\n", &format!("[camera]\n{camera}"));
+            let Some(found) = differences(&scene) else { return };
+            println!("{name}, {kind}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
+            assert!(found[0] < 1e-9, "{name}: {found:?}");
+        }
+    }
+}
+
+/// h_v and κ of functions of styles and over two quantities; h_l.
+#[test]
+fn functions_and_labels() {
+    let halos = "[[halo]]\n[[halo]]\nkind = \"emissive\"\nseed = { by = \"curvature\", value = \"opacity\" }\n";
+    let cut = "[[clip]]\npoint = [20, 18, 16]\nnormal = [1, 0.7, 0.4]\nspace = \"index\"\n";
+    let rows = styles([2.0, 10.0, 20.0]);
+    let gradients = format!("over = [\"value\", \"gradient-magnitude\"]\n{rows}");
+    let along_view = format!("over = [\"value\", \"kv\"]\n{}", styles([0.0, 0.1, 0.3]));
+    let nodes = "nodes = [{ at = 100, style = \"wax\", opacity = 0 }, { at = 128, style = \"glass\", opacity = 0.5 }]";
+    let by_value = "[[halo]]\nseed.value = [[100, 0], [128, 1]]\n";
+    let path = labels("halos", &Grid::with_spacing([32; 3], [1.0; 3]).unwrap(), "uint8", 77);
+    let labelled = format!("labels = {path:?}");
+    let over_labels = format!("over = [\"value\", \"label\"]\n{}", styles([1.0, 2.0, 77.0]));
+    let of_labels = "[[halo]]\nseed.labels = [2, 77]\n[[halo]]\nkind = \"emissive\"\nseed.labels = [1]\n";
+    for (name, volume, transfer, tables) in [
+        ("styles", "", nodes, format!("{halos}[contours]\nthickness = \"1.5 voxels\"\n")),
+        ("styles and a table", "", &format!("table = 64\n{nodes}"), halos.to_owned()),
+        ("styles and a cut", "", nodes, format!("{halos}{cut}")),
+        ("gradients", "", &gradients, halos.to_owned()),
+        ("gradients, seeds of values", "", &gradients, by_value.to_owned()),
+        ("curvatures", "", &along_view, format!("{halos}[contours]\n{cut}")),
+        ("labels", &labelled, nodes, of_labels.to_owned()),
+        ("labels twice", &labelled, &over_labels, of_labels.to_owned()),
+    ] {
+        let Some(found) = differences(&torus(volume, transfer, &tables)) else { return };
+        println!("{name}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
+        assert!(found[0] < 1e-9, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn fields_of_halos() {
+    let halos = "[shading]\n[[halo]]\nseed.by = \"curvature\"\n[[halo]]\nkind = \"emissive\"\nevery = 2\n";
+    field::compare("halos", &[([11, 9, 8], "uchar"), ([11, 9, 8], "masked"), ([14, 12, 1], "uchar")], halos);
+    let surface = format!("{halos}[surface]\niso = 150\nlook = \"phong\"\n");
+    field::compare("halos and a surface", &[([11, 9, 8], "uchar"), ([11, 9, 8], "masked")], &surface);
+}
+
+/// The text of shaders, and how a picture is refused whose images do not fit.
+#[test]
+fn what_halos_add() {
+    let Some(gpu) = gpu() else { return };
+    let text = |tables: &str| {
+        let scene = parse(&scene("", tables), "scene.toml".as_ref(), &Overrides::default()).unwrap();
+        let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+        let text = std::cell::RefCell::new(String::new());
+        let drawn = GpuJob::new(&job, &gpu, Precision::Single).unwrap();
+        let keep = |whole: String| {
+            text.replace(whole.clone());
+            whole
+        };
+        drop(drawn.edited(&keep).unwrap_or_else(|failure| panic!("{failure}")));
+        text.into_inner().to_lowercase()
+    };
+    assert!(!text("").contains("halo") && !text("").contains("seed"));
+    assert!(!text("[[halo]]\nopacity = 0\n").contains("halo"));
+    assert!(text("[[halo]]\n").contains("fn halo_seeds"));
+}
+
+#[test]
+fn a_picture_that_is_too_large() {
+    let Some(gpu) = gpu() else { return };
+    let large = TORUS.replace("size = [64, 48]", "size = [16000, 12000]").replace("PICTURE\n", "samples = 4\n");
+    let scene = parse(&format!("{large}[[halo]]\n"), "scene.toml".as_ref(), &Overrides::default()).unwrap();
+    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+    let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
+    assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
+}

@@ -1,0 +1,161 @@
+//! Faults in the shaders of halos, each of which parts the pictures.
+
+use crate::halos::{FIVE, scene};
+use crate::{double, gpu};
+
+/// The least difference that counts as noticed.
+const NOTICED: f64 = 1e-4;
+
+/// The faults: the text that is there, the text in its place, keys of the picture, further tables.
+const FAULTS: &[(&str, &str, &str, &str)] = &[
+    // Planes: one too few, the glow of the plane before, a sample of the next plane, groups that end early.
+    ("plane_after = k + 1;", "plane_after = k + 2;", "", "[[halo]]\n"),
+    ("if (k == next) {", "if (k == next + 1) {", "", "[[halo]]\n"),
+    ("return (((k + 1) % every)", "return (((k + 2) % every)", "", "[[halo]]\nevery = 4\n"),
+    (
+        "for (; k <= last; k++) {\n        var sample: Sample;",
+        "for (; k < last; k++) {\n        var sample: Sample;",
+        "",
+        "[[halo]]\nevery = 4\n",
+    ),
+    ("s[c] = 0.0;", "s[c] = s[c];", "", "[[halo]]\n"),
+    ("o[c] = max(o[c], h[c]);", "o[c] = h[c];", "", "[[halo]]\n"),
+    // Seeds: the sign of n·v, exponents, kappa, M's division, a maximum in place of a mean, the floor.
+    (
+        "abs(dot(a.normal, ray.v)), a.magnitude",
+        "dot(a.normal, ray.v), a.magnitude",
+        "",
+        "[[halo]]\nseed.direction = { toward = 0, width = 300 }\n",
+    ),
+    ("max(1.0 - n_dot_v, 0.0), halos[halo].side", "max(1.0 - n_dot_v, 0.0), halos[halo].side + 1.0", "", "[[halo]]\n"),
+    ("seed_power(magnitude, halos[halo].gradient_exponent)", "seed_power(magnitude, 1.0)", "", "[[halo]]\n"),
+    (
+        "seed_tau(abs(kappa) * halos[halo].side)",
+        "seed_tau(abs(kappa))",
+        "",
+        "[[halo]]\nseed = { by = \"curvature\", thickness = \"2 voxels\" }\n",
+    ),
+    ("before + s / halos[halo].every", "before + s", "", "[[halo]]\nevery = 4\naccumulate = \"mean\"\n"),
+    ("select(max(before, s), before", "select(s, before", "", "[[halo]]\nevery = 4\n"),
+    ("return select(s, real(0.0), s < halos[halo].floor);", "return s;", "", "[[halo]]\nfloor = 0.3\n"),
+    ("select(result[c], real(0.0), result[c] < halos[halo].floor)", "result[c]", "", "[[halo]]\nfloor = 0.3\n"),
+    ("let shifted = at - GUARD + GUARD * n;", "let shifted = at - GUARD + GUARD * n + 1;", "", "[[halo]]\n"),
+    // Factors of seeds: a swapped axis, an angle's side, a distance to a line in place of a segment.
+    (
+        "n.x * toward.x + n.y * toward.y",
+        "n.x * toward.y + n.y * toward.x",
+        "",
+        "[[halo]]\nseed.direction = { toward = 120, width = 90, softness = 40 }\n",
+    ),
+    (
+        "halo_axis_y() * p.y + halo_axis_z() * p.z",
+        "halo_axis_y() * p.z + halo_axis_z() * p.y",
+        "",
+        "[[halo]]\nseed.focus = { at = [[20, 10, 15]], inner = 4, falloff = 8 }\n",
+    ),
+    (
+        "t = clamp_01(dot(p - a, along) / square);",
+        "t = dot(p - a, along) / square;",
+        "",
+        "[[halo]]\nseed.focus = { at = [[5, 6, 7], [12, 10, 9]], inner = 6, falloff = 7 }\n",
+    ),
+    (
+        "return 1.0 - beyond / falloff;",
+        "return beyond / falloff;",
+        "",
+        "[[halo]]\nseed.focus = { at = [[20, 10, 15]], inner = 4, falloff = 8 }\n",
+    ),
+    ("seed_alpha_u = node_place(locate_value(sample.s)).alpha_u;", "seed_alpha_u = 1.0;", "", "[[halo]]\n"),
+    (
+        "lerp(halo_numbers[at + 2], halo_numbers[at + 3]",
+        "lerp(halo_numbers[at + 3], halo_numbers[at + 2]",
+        "",
+        "[[halo]]\nseed.value = [[100, 0], [128, 1], [140, 0]]\n",
+    ),
+    // Gradient, median and spreading: weights of taps, a swapped axis, distances, fractions, the mix.
+    ("return 0.5 * d;", "return d;", "", "[[halo]]\n"),
+    ("vec2(0, 1), taps)", "vec2(1, 0), taps)", "", "[[halo]]\n"),
+    (
+        "median_of_three(a.median, b.median, c.median)",
+        "a.median",
+        "",
+        "[[halo]]\nspread.median = true\nexponents = [0.2, 2]\n",
+    ),
+    (
+        "return 0.25 * (sum + 2.0 * before_at(x, y, layer));",
+        "return 0.25 * (sum + before_at(x, y, layer));",
+        "",
+        "[[halo]]\n",
+    ),
+    ("return 0.25 * (sum + 2.0 * column_of(x, y, layer, taps));", "return 0.5 * sum;", "", "[[halo]]\n"),
+    ("2 * (halo * MOST_PASSES + exponent)", "2 * halo * MOST_PASSES", "", "[[halo]]\n"),
+    (
+        "let far = before_at(x, y - taps.j - 1, layer)",
+        "let far = before_at(x, y - taps.j, layer)",
+        "",
+        "[[halo]]\nspread.reach = \"31 %\"\n",
+    ),
+    ("let part = delta * f;", "let part = f;", "", "[[halo]]\n"),
+    ("return part + (1.0 - part) * source;", "return part;", "", "[[halo]]\n"),
+    ("plane_group.exponent < i32(halos[halo].passes)", "true", "", FIVE),
+    // Profiles, tints and glows: the order of mixing, weights, what tints what.
+    (
+        "next - 1);\n        color",
+        "next);\n        color",
+        "",
+        "[[halo]]\nprofile = [{ at = 0, color = \"black\", opacity = 0 }, { at = 1, color = \"red\" }]\n",
+    ),
+    ("(1.0 - m) * tint.add + m * rgb", "tint.add + (1.0 - m) * rgb", "", FIVE),
+    (
+        "for (var i = HALOS - 1; i >= 0; i--)",
+        "for (var i = 0; i < HALOS; i++)",
+        "",
+        "[[halo]]\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n[[halo]]\n",
+    ),
+    ("halo_numbers[i32(halos[i].first_tint) + of_halo] == 0.0", "true", "", FIVE),
+    ("corrected(color.a, ratio)", "color.a", "", "[[halo]]\nkind = \"emissive\"\n"),
+    ("front = over_premultiplied(front, glow);", "front = front;", "", "[[halo]]\nkind = \"emissive\"\n"),
+    ("tinted(in_blend_space(shaded.rgb), tint)", "in_blend_space(shaded.rgb)", "", "[[halo]]\n"),
+    (
+        "tinted(end.rgb, tint)",
+        "end.rgb",
+        "",
+        "[[halo]]\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n[surface]\niso = 132\n",
+    ),
+    (
+        "return select(last_before_surface() + 1, NO_PLANE",
+        "return select(last_before_surface() + 9, NO_PLANE",
+        "",
+        "[[halo]]\nkind = \"emissive\"\n[surface]\niso = 132\n",
+    ),
+    // Layers and pixels.
+    (
+        "max(ray_numbers[ray_place(RAY_KEPT + 21, number)], intensity_of(0, place))",
+        "intensity_of(0, place)",
+        "layers = [\"beauty\", \"halo0\"]",
+        "[[halo]]\n",
+    ),
+    (
+        "ray_sums.is_met = ray_sums.first.depth < NOWHERE;",
+        "ray_sums.is_met = false;",
+        "layers = [\"beauty\", \"first\"]",
+        "[[halo]]\n",
+    ),
+    ("let at = pixel * n + vec2(part % n, part / n);", "let at = pixel * n;", "samples = 2", "[[halo]]\n"),
+];
+
+#[test]
+fn faults_of_halos_are_noticed() {
+    if gpu().is_none() {
+        return;
+    }
+    let mut missed = Vec::new();
+    for (old, new, picture, tables) in FAULTS {
+        let Some(found) = double::difference_with(&scene(picture, tables), (old, new)) else { return };
+        println!("{new:?}: {found:.1e}");
+        if found < NOTICED {
+            missed.push(format!("{old} → {new}: {found:e}"));
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+}
