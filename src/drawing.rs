@@ -63,14 +63,19 @@ impl<'a> Drawing<'a> {
         Self::with(job, marking, renderer.map(|renderer| VolumeRenderer::Reference(Box::new(renderer))), counts)
     }
 
-    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card.
+    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn and points tested for visibility by a
+    /// graphics card.
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`], and those of the adapter.
     #[cfg(feature = "gpu")]
     pub fn on_gpu(job: &'a Job, marking: &'a Marking<'a>, gpu: &'a Gpu, counts: &mut Counts) -> Result<Self, Failure> {
         let frames = if job.draws_volume() { Some(Box::new(GpuFrames::new(job, gpu)?)) } else { None };
-        Self::with(job, marking, frames.map(VolumeRenderer::Gpu), counts)
+        let mut drawing = Self::with(job, marking, frames.map(VolumeRenderer::Gpu), counts)?;
+        if let Some(marks) = &mut drawing.marks {
+            marks.on_gpu(job, gpu)?;
+        }
+        Ok(drawing)
     }
 
     fn with(

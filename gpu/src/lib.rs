@@ -26,9 +26,11 @@ mod style_transfer_functions;
 mod surface;
 mod transfer;
 mod volume;
+mod volume_stippling;
 
 pub use device::{Gpu, Precision};
 pub use error::GpuError;
 pub use kernel::Kernel;
 pub use renderer::{Inputs, Renderer};
 pub use volume::Volume;
+pub use volume_stippling::{HiddenPoints, Hiding};

@@ -325,7 +325,7 @@ impl Pass {
 }
 
 /// The layout of group 1: the data of the scene's effects.
-fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
+pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
     let entry = |(binding, _, data): &(u32, &'static str, Data)| match data {
         Data::Numbers | Data::Voxels | Data::Smoothed => wgpu::BindGroupLayoutEntry {
             binding: *binding,
@@ -345,7 +345,7 @@ fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuE
 }
 
 /// Uploads what a shader reads.
-fn bind_data(
+pub(crate) fn bind_data(
     gpu: &Gpu,
     volume: &Volume,
     shader: &Shader,

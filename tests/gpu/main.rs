@@ -5,8 +5,11 @@ mod double;
 mod field;
 mod formulas;
 mod lines;
+mod points;
 #[path = "sabotage/lines.rs"]
 mod sabotage_of_lines;
+#[path = "sabotage/points.rs"]
+mod sabotage_of_points;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]
