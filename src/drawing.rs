@@ -57,7 +57,8 @@ impl<'a> Drawing<'a> {
         Self::on(job, marking, None, counts)
     }
 
-    /// Prepares the frames of a job like [`Drawing::new`], with the volume drawn by a graphics card if there is one.
+    /// Prepares the frames of a job like [`Drawing::new`]. A graphics card, if there is one, draws the volume and tests points
+    /// for visibility.
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`], and those of the adapter.
@@ -69,7 +70,10 @@ impl<'a> Drawing<'a> {
     ) -> Result<Self, Failure> {
         let draws = job.draws_volume();
         let renderer = draws.then(|| VolumeRenderer::new(job, None, card, counts)).transpose()?;
-        let marks = marking.frames(counts);
+        let mut marks = marking.frames(counts);
+        if let (Some(marks), Some(gpu)) = (&mut marks, card) {
+            marks.on_gpu(job, gpu)?;
+        }
         Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
     }
 

@@ -2,9 +2,12 @@
 
 use crate::Failure;
 use crate::job::{Job, KnobVariant};
+use crate::stippling::PointTest;
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
-use drypoint_gpu::{Inputs, Renderer, Volume};
+pub use drypoint_gpu::{HiddenPoints, Hiding, Volume};
+use drypoint_gpu::{Inputs, Renderer};
 use drypoint_reference::ray::lattice::samples_in;
+use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
@@ -219,6 +222,32 @@ impl<'a> GpuFrames<'a> {
         counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
         Ok((picture, counts))
     }
+}
+
+/// Prepares the test of which points a surface hides.
+///
+/// # Errors
+/// Errors of the adapter.
+pub(crate) fn point_test<'a>(
+    job: &Job,
+    gpu: &'a Gpu,
+    surface: &IsoSurface<'_, '_>,
+    near: f64,
+) -> Result<PointTest<'a>, Failure> {
+    let failure = |error: GpuError| Failure::new(error.to_string(), "--backend", remedy(&error));
+    let measured = surface.measured();
+    let volume = Volume::new(gpu, &measured, Precision::Single).map_err(failure)?;
+    let hiding = Hiding {
+        volume: &job.volume,
+        measured: &measured,
+        reconstruction: surface.field().reconstruction(),
+        iso: surface.iso(),
+        clip: surface.clip(),
+        perspective: job.view()?.perspective,
+        near,
+    };
+    let mut test = HiddenPoints::new(gpu, &volume, &hiding).map_err(failure)?;
+    Ok(Box::new(move |view, in_front, points| test.hidden(view, in_front, points).map_err(failure)))
 }
 
 /// Opens the adapter.

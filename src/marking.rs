@@ -2,6 +2,7 @@
 //! that no camera changes is done once.
 
 use crate::Failure;
+use crate::gpu::{Gpu, point_test};
 use crate::job::{Job, RenderTarget, room_for_passes};
 use crate::stippling::{DotFrames, PointsProgress, Stippling};
 use crate::stroking::{StrokeFrames, Stroking};
@@ -56,7 +57,18 @@ impl<'a> Marking<'a> {
     }
 }
 
-impl MarkFrames<'_> {
+impl<'a> MarkFrames<'a> {
+    /// Tests points for visibility on a graphics card.
+    ///
+    /// # Errors
+    /// Errors of the adapter.
+    pub(crate) fn on_gpu(&mut self, job: &'a Job, gpu: &'a Gpu) -> Result<(), Failure> {
+        let Some(dots) = &mut self.dots else { return Ok(()) };
+        let test = dots.hiding().map(|(surface, near)| point_test(job, gpu, surface, near)).transpose()?;
+        test.into_iter().for_each(|test| dots.test_by(test));
+        Ok(())
+    }
+
     /// Returns the marks that a camera sees: dots, and strokes over them. A pen has one layer.
     ///
     /// # Errors
@@ -70,11 +82,14 @@ impl MarkFrames<'_> {
     /// Returns the marks over a picture of the volume, and the strokes inside it ([HATCH-14] d).
     ///
     /// # Errors
-    /// Same errors as [`StrokeFrames::draw`].
+    /// Same errors as [`DotFrames::draw`] and [`StrokeFrames::draw`].
     pub fn draw_apart(&mut self, view: &View, counts: &mut Counts) -> Result<[Marks; 2], Failure> {
         let page = self.page;
         let nothing = || Marks { page, layers: Vec::new() };
-        let mut marks = self.dots.as_mut().map_or_else(nothing, |dots| dots.draw(view, counts));
+        let mut marks = match &mut self.dots {
+            Some(dots) => dots.draw(view, counts)?,
+            None => nothing(),
+        };
         let strokes = self.strokes.as_mut().map(|strokes| strokes.draw(view, counts)).transpose()?;
         let [over, inside] = strokes.unwrap_or_default();
         over.into_iter().for_each(|layer| add(&mut marks.layers, layer));

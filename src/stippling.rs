@@ -15,7 +15,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
-use drypoint_scene::points::Points;
+use drypoint_scene::points::{Points, SurfacePoint};
 use drypoint_scene::shot::Clipping;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Scene, Stipples};
@@ -60,11 +60,16 @@ struct PenDots {
     points: Points,
 }
 
+/// A test of which points a surface hides, from a camera and so far in front of the surface.
+pub(crate) type PointTest<'a> = Box<dyn FnMut(&View, f64, &[SurfacePoint]) -> Result<Vec<bool>, Failure> + 'a>;
+
 /// Frames of points.
 pub struct DotFrames<'a> {
     stippling: &'a Stippling<'a>,
     layers: Vec<Frames<'a>>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
+    /// The test of hidden points in place of the reference's.
+    test: Option<PointTest<'a>>,
     /// Drawn dots of each layer.
     drawn: Vec<FrameDots>,
 }
@@ -162,21 +167,40 @@ impl<'a> Stippling<'a> {
         });
         let layers: Vec<_> = layers.collect();
         let drawn = vec![FrameDots::default(); layers.len()];
-        DotFrames { stippling: self, layers, surface, drawn }
+        DotFrames { stippling: self, layers, surface, test: None, drawn }
     }
 }
 
-impl DotFrames<'_> {
+impl<'a> DotFrames<'a> {
+    /// Returns the surface that hides points, and the near distance of a perspective camera.
+    pub(crate) fn hiding(&self) -> Option<(&IsoSurface<'a, 'a>, f64)> {
+        self.surface.as_deref().map(|surface| (surface, self.stippling.setting.near))
+    }
+
+    /// Sets the test of hidden points in place of the reference's.
+    pub(crate) fn test_by(&mut self, test: PointTest<'a>) {
+        self.test = Some(test);
+    }
+
     /// Returns the marks that a camera sees: a layer a pen, with dots and, if the scene asks for them, silhouette
     /// curves.
-    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Marks {
+    ///
+    /// # Errors
+    /// Errors of another test of hidden points.
+    pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<Marks, Failure> {
         let start = Instant::now();
         let Stippling { setting, line_pen, edges, grid, clip, .. } = self.stippling;
         let StippleSetup { page, near, stipples, .. } = setting;
         // Dots of each pen, thinned evenly over all pens if the scene asks for that.
         let mut layers = Vec::with_capacity(self.layers.len());
         for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
-            frames.draw(view, page, drawn);
+            match (&mut self.test, frames.in_front(view)) {
+                (Some(test), Some(in_front)) => {
+                    frames.candidates(view, page, drawn);
+                    drawn.leave_out(&test(view, in_front, &drawn.points())?);
+                }
+                _ => frames.draw(view, page, drawn),
+            }
         }
         if stipples.even == Even::Page {
             choose_on_page(&mut self.drawn);
@@ -213,7 +237,7 @@ impl DotFrames<'_> {
         let [dots, lines] = mark_counts(&marks.layers).map(|n| n as u64);
         (counts.points, counts.strokes) = (counts.points + dots, counts.strokes + lines);
         *counts.seconds.entry("dots".into()).or_default() += start.elapsed().as_secs_f64();
-        marks
+        Ok(marks)
     }
 }
 

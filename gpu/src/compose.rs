@@ -15,7 +15,7 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
-fn no_normal(precision: Precision) -> f64 {
+pub(crate) fn no_normal(precision: Precision) -> f64 {
     match precision {
         Precision::Single => 1.0 / (1u64 << 20) as f64,
         Precision::Double => 1.0 / (1u64 << 46) as f64,
@@ -62,7 +62,14 @@ pub(crate) fn shader(
     let has_halos = !shot.halos.list.is_empty();
     let query = if has_halos { own.and(shot.halos.query) } else { own };
     if query.gradient {
-        field::gradient::add(&mut shader, object, measured, &scales, no_normal(precision));
+        field::gradient::add(
+            &mut shader,
+            object.reconstruction,
+            object.normal,
+            measured,
+            &scales,
+            no_normal(precision),
+        );
         ray::add_gradient(&mut shader, measured, &scales);
     }
     if query.hessian {
@@ -101,7 +108,9 @@ pub(crate) fn shader(
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
     if let Some(surface) = &shot.surface {
         let has_mask = inputs.volume.mask().is_some();
-        surface::add(&mut shader, shot, surface, measured, &scales, ray::rounding(&scales, precision), has_mask);
+        let (kernel, slack) = (object.reconstruction.kernel, ray::rounding(&scales, precision));
+        surface::add_search(&mut shader, kernel, surface.iso, measured, &scales, slack, has_mask);
+        surface::add(&mut shader, shot, surface, has_mask);
         if inputs.has_lines {
             ray::lines::add_surface(&mut shader);
         }

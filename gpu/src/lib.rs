@@ -29,6 +29,7 @@ mod style_transfer_functions;
 mod surface;
 mod transfer;
 mod volume;
+mod volume_stippling;
 mod volumetric_halos;
 
 pub use device::{Gpu, Interpolation, Precision, WANTED};
@@ -36,4 +37,5 @@ pub use error::GpuError;
 pub use kernel::Kernel;
 pub use renderer::{Inputs, Renderer};
 pub use volume::Volume;
+pub use volume_stippling::{HiddenPoints, Hiding};
 pub use wgpu;

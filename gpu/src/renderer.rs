@@ -274,7 +274,7 @@ pub(crate) fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
 }
 
 /// The layout of group 1: the data of the scene's effects.
-fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
+pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuError> {
     let filters = shader.data.iter().any(|(_, _, data)| *data == Data::Sampler);
     let entry = |(binding, _, data): &(u32, &'static str, Data)| {
         let ty = match data {
@@ -294,7 +294,7 @@ fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupLayout, GpuE
 }
 
 /// Uploads what a shader reads.
-fn bind_data(
+pub(crate) fn bind_data(
     gpu: &Gpu,
     volume: &Volume,
     shader: &Shader,

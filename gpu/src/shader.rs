@@ -131,8 +131,22 @@ impl Shader {
         self.data.push((binding, what, data));
     }
 
-    /// The whole text.
+    /// The text of a shader that draws pictures.
     pub(crate) fn text(&self, precision: Precision) -> String {
+        let mut text = self.modules_text(precision) + &self.stages.wgsl();
+        text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
+        text
+    }
+
+    /// The text of a shader that searches an iso-surface and draws nothing.
+    pub(crate) fn text_of_search(&self, precision: Precision) -> String {
+        let mut text = self.modules_text(precision);
+        self.stages.passed_wgsl(&mut text);
+        text
+    }
+
+    /// The text up to the stages.
+    fn modules_text(&self, precision: Precision) -> String {
         let number = match precision {
             Precision::Single => crate::number::SINGLE,
             Precision::Double => crate::number::DOUBLE,
@@ -147,25 +161,34 @@ impl Shader {
         for module in &self.modules {
             let _ = write!(text, "\n{}", module.text);
         }
-        text.push_str(&self.stages.wgsl());
-        text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
         text
     }
 }
 
+/// Appends a function of a shader.
+fn write_function(text: &mut String, head: &str, lines: &[String], result: Option<&str>) {
+    let _ = write!(text, "\nfn {head} {{\n");
+    for line in lines {
+        let _ = writeln!(text, "    {line}");
+    }
+    if let Some(result) = result {
+        let _ = writeln!(text, "    return {result};");
+    }
+    text.push_str("}\n");
+}
+
 impl Stages {
+    /// Appends the stage of cells that a search passes over.
+    fn passed_wgsl(&self, text: &mut String) {
+        let calls = self.passed.iter().map(|s| format!("side = max(side, {s}(cell));"));
+        let lines: Vec<String> = std::iter::once("var side = 0;".to_owned()).chain(calls).collect();
+        write_function(text, "cells_passed(cell: vec3<i32>) -> i32", &lines, Some("side"));
+    }
+
     fn wgsl(&self) -> String {
         let mut text = String::new();
-        let mut function = |head: &str, lines: &[String], result: Option<&str>| {
-            let _ = write!(text, "\nfn {head} {{\n");
-            for line in lines {
-                let _ = writeln!(text, "    {line}");
-            }
-            if let Some(result) = result {
-                let _ = writeln!(text, "    return {result};");
-            }
-            text.push_str("}\n");
-        };
+        self.passed_wgsl(&mut text);
+        let mut function = |head: &str, lines: &[String], result| write_function(&mut text, head, lines, result);
         let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
         let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
         let lines = calls(&self.begin_part, &|s| format!("{s}(pixel, part, across);"));
@@ -196,8 +219,6 @@ impl Stages {
         function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
         let lines = with("var steps = real(1.0);", calls(&self.steps, &|s| format!("steps = {s}(k, steps);")));
         function("steps_of(k: i32) -> real", &lines, Some("steps"));
-        let lines = with("var side = 0;", calls(&self.passed, &|s| format!("side = max(side, {s}(cell));")));
-        function("cells_passed(cell: vec3<i32>) -> i32", &lines, Some("side"));
         let lines =
             with("var shaded = plain;", calls(&self.on_surface, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
         function(

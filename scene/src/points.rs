@@ -34,6 +34,17 @@ pub struct PointVoxel {
     pub normal: DVec3,
 }
 
+/// A point near an iso-surface that may hide it ([STIP-15]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The place in the world.
+    pub at: DVec3,
+    /// The outward normal of its voxel, of length 1, in the world.
+    pub normal: DVec3,
+    /// The largest distance of its foot on the surface, in world units.
+    pub reach: f64,
+}
+
 impl PointVoxel {
     /// The centre in index space.
     pub fn centre(&self) -> DVec3 {

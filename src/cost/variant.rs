@@ -171,7 +171,7 @@ fn take_dots(variants: &mut [TimedVariant<'_>], group: &[usize]) -> Result<(), F
         if let Some(stipples) = &scene.stipples {
             stippling.set_even(stipples.even);
         }
-        let marks = stippling.frames().draw(&job.view()?, &mut counts);
+        let marks = stippling.frames().draw(&job.view()?, &mut counts)?;
         let took = shared + start.elapsed();
         variant.take_page(took, |job| Ok(SettingOutput::Dots(tone(job, scene, &marks)?)), counts)?;
     }

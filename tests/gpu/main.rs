@@ -7,12 +7,15 @@ mod field;
 mod formulas;
 mod halos;
 mod lines;
+mod points;
 #[path = "sabotage/bounds.rs"]
 mod sabotage_of_bounds;
 #[path = "sabotage/halos.rs"]
 mod sabotage_of_halos;
 #[path = "sabotage/lines.rs"]
 mod sabotage_of_lines;
+#[path = "sabotage/points.rs"]
+mod sabotage_of_points;
 #[path = "sabotage/rays.rs"]
 mod sabotage_of_rays;
 #[path = "sabotage/styles.rs"]

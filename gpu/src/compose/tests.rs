@@ -2,12 +2,14 @@
 
 use super::shader;
 use crate::renderer::drawn_layers;
-use crate::{GpuError, Inputs, Interpolation, Precision};
+use crate::{GpuError, Hiding, Inputs, Interpolation, Precision, volume_stippling};
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::file::{Overrides, parse};
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::measured::{Measured, PaddedNumbers};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::shot::{Axis, Shot, VolumeFacts};
+use drypoint_scene::shot::{Axis, GradientEstimator, Kernel, Reconstruction, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Iso, Scene};
@@ -199,12 +201,11 @@ fn volume(is_masked: bool) -> Volume {
 }
 
 /// Measured facts that fit the volume in their sizes alone.
-fn measured(shot: &Shot, volume: &Volume) -> Measured {
+fn measured(volume: &Volume, has_range: bool, has_bricks: bool) -> Measured {
     let numbers = || {
         let dims = volume.dims().map(|n| n + 4);
         PaddedNumbers { data: vec![1.0; dims.iter().product()], dims, pad: 2 }
     };
-    let [object] = &shot.objects;
     let bricks = Bricks::new(volume.dims(), |_| vec![[0.0, 10.0]; 2]);
     Measured {
         numbers: numbers(),
@@ -212,10 +213,10 @@ fn measured(shot: &Shot, volume: &Volume) -> Measured {
         smoothed: Some(numbers()),
         regression: Some(vec![0.0; 64 * 3 * 27]),
         base: 0.0,
-        gradient_range: object.gradient_range.map(|_| [0.0, 1.0]),
+        gradient_range: has_range.then_some([0.0, 1.0]),
         gradient_scale: 1.0,
         label_distances: [0, 1].map(|_| Some(vec![0.0; volume.grid().len()])),
-        bricks: object.skip_empty.then_some(bricks),
+        bricks: has_bricks.then_some(bricks),
     }
 }
 
@@ -256,7 +257,8 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
         let over = shot.objects[0].function.nodes().2.map(|rows| &rows.over[axis]);
         matches!(over, Some(Axis::Volume(_))).then_some(volume)
     });
-    let measured = measured(&shot, volume);
+    let [object] = &shot.objects;
+    let measured = measured(volume, object.gradient_range.is_some(), object.skip_empty);
     let background = if has_picture { Backdrop::Pixels(&[[0.5; 4]; 16 * 12]) } else { Backdrop::Color([0.5; 4]) };
     let inputs =
         Inputs { volume, measured: &measured, labels: Some(&labels), further, styles: &styles, background, has_lines };
@@ -265,6 +267,37 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
         Err(GpuError::Missing { .. }) => Ok(None),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// The texts of tests of hidden points.
+fn tests_of_points() -> Vec<String> {
+    let kernels = [Kernel::Trilinear, Kernel::Bspline, Kernel::BsplineSmooth, Kernel::Bspline5, Kernel::CatmullRom];
+    let gradients = [
+        GradientEstimator::Analytic,
+        GradientEstimator::Central,
+        GradientEstimator::Sobel,
+        GradientEstimator::Regression,
+    ];
+    let plane = ClipPlane::in_index(DVec3::splat(3.0), DVec3::X, volume(false).grid());
+    let mut texts = Vec::new();
+    for (i, (kernel, gradient)) in kernels.into_iter().flat_map(|k| gradients.map(|g| (k, g))).enumerate() {
+        // Bits of the number of a pair choose the rest.
+        let has = |bit: u32| (i + i / 4) >> bit & 1 == 1;
+        let (volume, clip) = (volume(has(0)), ClipPlanes(if has(1) { vec![plane.clone()] } else { Vec::new() }));
+        let hiding = Hiding {
+            volume: &volume,
+            measured: &measured(&volume, false, has(2)),
+            reconstruction: Reconstruction { kernel, gradient, ..Reconstruction::default() },
+            iso: 5.0,
+            clip: &clip,
+            perspective: has(0) != has(1),
+            near: 0.1,
+        };
+        for precision in [Precision::Single, Precision::Double] {
+            texts.push(volume_stippling::shader(&hiding, precision).text_of_search(precision));
+        }
+    }
+    texts
 }
 
 /// Ids on a grid.
@@ -360,6 +393,10 @@ fn every_pair_of_effects_has_a_valid_shader() {
     let missing: Vec<_> = all.filter(|pair| !seen.contains(pair)).collect();
     println!("{valid} shaders with {} pairs of alternatives", seen.len());
     assert_eq!(missing, impossible);
+    for shader in tests_of_points() {
+        validate(&shader).unwrap_or_else(|error| panic!("{error}"));
+        modules.retain(|(_, module)| !shader.contains(module));
+    }
     let unused: Vec<_> = modules.iter().map(|(path, _)| path).collect();
     assert!(unused.is_empty(), "no scene has {unused:?}");
 }

@@ -1,47 +1,8 @@
 // Clip planes, and cuts: places where a ray comes out of what they cut away ([RAY-8]).
 
-struct Plane {
-    // The outward normal and the offset in index space: beyond the plane lies what n.p - offset > 0.
-    x: real,
-    y: real,
-    z: real,
-    offset: real,
-    // The unit normal in the world.
-    world_x: real,
-    world_y: real,
-    world_z: real,
-    // The cap of cuts: 1 if there is one, its straight linear colour and the factor of a cut's opacity; or 2 and the place of
-    // a sphere.
-    has_cap: real,
-    r: real,
-    g: real,
-    b: real,
-    opacity: real,
-}
-
-@group(1) @binding(7) var<storage, read> planes: array<Plane>;
-
 // The first sample behind a cut, and the plane that the ray crosses last before it; -1 if it crosses none.
 var<private> cut_k: i32;
 var<private> cut_plane: i32;
-
-fn beyond(plane: i32, p: vec3<real>) -> real {
-    return dot(vec3<real>(planes[plane].x, planes[plane].y, planes[plane].z), p) - planes[plane].offset;
-}
-
-fn is_cut(p: vec3<real>) -> bool {
-    for (var i = 0; i < PLANES; i++) {
-        if (beyond(i, p) > 0.0) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// The growth of n.p - offset from sample to sample.
-fn growth(plane: i32, ray: Ray) -> real {
-    return dot(vec3<real>(planes[plane].x, planes[plane].y, planes[plane].z), ray.along * ray.depth_step);
-}
 
 // The samples of a run that no plane cuts away, and the cut that it begins with. A sample is cut away if its position is.
 fn clip_run(ray: Ray, run: vec2<i32>) -> vec2<i32> {

@@ -1,18 +1,4 @@
-// Rays in index space, and the samples on them ([RAY-1]).
-
-struct Ray {
-    // Index position at the anchor's plane, a plane in the middle of the volume.
-    origin: vec3<real>,
-    // Index displacement for one unit of depth.
-    along: vec3<real>,
-    // v, towards the eye, in world and in eye space.
-    v: vec3<real>,
-    v_eye: vec3<real>,
-    // Eye depth between samples.
-    depth_step: real,
-    // World distance between samples.
-    step: real,
-}
+// The rays of a picture, and the samples on them ([RAY-1]).
 
 // The ray through a point of the picture, in pixels from the middle of the picture, to the right and up.
 fn ray_through(x: real, y: real) -> Ray {
@@ -49,11 +35,6 @@ fn position(ray: Ray, k: i32) -> vec3<real> {
 // The eye depth of sample k, counted from the anchor.
 fn depth_of(ray: Ray, k: i32) -> real {
     return (real(k) + params.anchor_steps) * ray.depth_step;
-}
-
-// Whether a position lies in the closed box of the volume.
-fn in_box(p: vec3<real>) -> bool {
-    return all(p >= box_low()) && all(p <= box_high());
 }
 
 // Whether sample k may be asked for: beyond `near` and inside the box.

@@ -12,7 +12,7 @@ use crate::number::{COLOR, ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Data, Module, Shader, module};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
-use drypoint_scene::clip::ClipPlane;
+use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, SampleQuery, Shot, StepAlong};
@@ -22,13 +22,16 @@ use drypoint_scene::volume::{BRICK, Bricks};
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
 const MOST_PLANES: f64 = 4_000_000.0;
 
+/// Rays, and the box of the volume.
+pub(crate) const RAY: Module = module!("ray");
+
 /// N in eye space.
 pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 
 /// Adds rays and their samples.
 pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
-    shader.add(&[module!("lattice")]);
+    shader.add(&[RAY, module!("lattice")]);
     shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
     shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
     add_view(&mut shader.block, shot, grid)
@@ -122,10 +125,10 @@ pub(crate) fn add_mask(shader: &mut Shader) {
     shader.stages.next_plane.push("skip_masked");
 }
 
-/// Adds clip planes, before what shades is added. The spheres of caps stand after those of `styles`.
-pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
+/// Adds clip planes alone. The spheres of caps stand after those of `styles`.
+pub(crate) fn add_planes(shader: &mut Shader, planes: &ClipPlanes, caps: &[Cap], styles: usize) {
     let plane = |plane: &ClipPlane| {
-        let cap = match plane.cap.map(|cap| clipping.caps[cap]) {
+        let cap = match plane.cap.and_then(|cap| caps.get(cap).copied()) {
             Some(Cap::Color { rgb: [r, g, b], opacity }) => [1.0, r, g, b, opacity],
             Some(Cap::Style(place)) => [2.0, (styles + place) as f64, 0.0, 0.0, 0.0],
             None => [0.0; 5],
@@ -133,9 +136,15 @@ pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) 
         let (n, world) = (plane.index_normal, plane.normal);
         [[n.x, n.y, n.z, plane.index_offset, world.x, world.y].as_slice(), &[world.z], &cap].concat()
     };
+    shader.add(&[module!("planes")]);
+    shader.constant("PLANES", Constant::Int(planes.0.len() as i64));
+    shader.bind(7, "the clip planes", Data::Reals(planes.0.iter().flat_map(plane).collect()));
+}
+
+/// Adds clip planes and what they leave of rays, before what shades is added.
+pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
+    add_planes(shader, &clipping.planes, &clipping.caps, styles);
     shader.add(&[module!("clip")]);
-    shader.constant("PLANES", Constant::Int(clipping.planes.0.len() as i64));
-    shader.bind(7, "the clip planes", Data::Reals(clipping.planes.0.iter().flat_map(plane).collect()));
     shader.stages.samples_left.push("clip_run");
 }
 
@@ -165,11 +174,16 @@ pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scal
         words[i / 4] |= u32::from(far) << (8 * (i % 4));
     }
     shader.add(&[module!("bricks")]);
+    add_brick_sizes(shader, bricks);
+    shader.bind(5, "the distances of bricks", Data::Words(words));
+    shader.stages.next_plane.push("skip_brick");
+}
+
+/// Adds the numbers of bricks.
+pub(crate) fn add_brick_sizes(shader: &mut Shader, bricks: &Bricks) {
     shader.constant("BRICKS_X", Constant::Int(bricks.dims[0] as i64));
     shader.constant("BRICKS_Y", Constant::Int(bricks.dims[1] as i64));
     shader.constant("BRICK", Constant::Int(BRICK as i64));
-    shader.bind(5, "the distances of bricks", Data::Words(words));
-    shader.stages.next_plane.push("skip_brick");
 }
 
 /// Adds pixels and what lies behind them.

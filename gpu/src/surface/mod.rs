@@ -8,19 +8,19 @@ use drypoint_scene::shot::{Kernel, OpaqueSurface, Outside, Shot};
 /// The largest number that kernels make of numbers in [−1, 1], and more.
 const LARGEST: f64 = 8.0;
 
-/// Adds the search for an iso-surface. `slack` is the rounding of a value. The mask, if there is one, is bound already.
-pub(crate) fn add(
+/// Adds the search for the first root of a value on a ray. `slack` is the rounding of a value. The mask, if there is one,
+/// is bound already.
+pub(crate) fn add_search(
     shader: &mut Shader,
-    shot: &Shot,
-    surface: &OpaqueSurface,
+    kernel: Kernel,
+    iso: f64,
     measured: &Measured,
     scales: &Scales,
     slack: f64,
     has_mask: bool,
 ) {
-    let [object] = &shot.objects;
     shader.add(&[module!("traversal"), module!("first_root"), module!("bracket")]);
-    match object.reconstruction.kernel {
+    match kernel {
         Kernel::Trilinear => shader.add(&[module!("cubic"), module!("trilinear_cell")]),
         Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5 | Kernel::CatmullRom => {
             shader.add(&[module!("stepped_cell")]);
@@ -29,7 +29,7 @@ pub(crate) fn add(
     if let Some(bricks) = &measured.bricks {
         let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
         for (i, [lo, hi]) in bricks.ranges.iter().enumerate() {
-            words[i / 32] |= u32::from(lo - slack <= surface.iso && surface.iso <= hi + slack) << (i % 32);
+            words[i / 32] |= u32::from(lo - slack <= iso && iso <= hi + slack) << (i % 32);
         }
         shader.add(&[module!("bricks")]);
         shader.bind(23, "the bricks of the surface", Data::Words(words));
@@ -39,18 +39,27 @@ pub(crate) fn add(
         shader.add(&[module!("masked")]);
         shader.stages.passed.push("pass_masked");
     }
+    shader.block.number("iso", scales.value(iso).clamp(-LARGEST, LARGEST));
+}
+
+/// Adds the inside of the surface, where planes cut.
+pub(crate) fn add_inside(shader: &mut Shader, outside: Outside, has_mask: bool) {
+    shader.add(&[module!("inside"), if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
+    shader.constant("OUTSIDE_IS_LOW", Constant::Bool(outside == Outside::Low));
+}
+
+/// Adds an iso-surface at which rays end, of which the search is there.
+pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has_mask: bool) {
+    let [object] = &shot.objects;
     shader.add(&[module!("../ray/surface")]);
     if shot.clipping.planes.is_empty() {
         shader.add(&[module!("whole")]);
     } else {
+        add_inside(shader, object.reconstruction.outside, has_mask);
         shader.add(&[module!("clipped")]);
-        shader.add(&[if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
-        shader.constant("OUTSIDE_IS_LOW", Constant::Bool(object.reconstruction.outside == Outside::Low));
         shader.stages.ends.push("cut_surface");
     }
-    let block = &mut shader.block;
-    block.number("iso", scales.value(surface.iso).clamp(-LARGEST, LARGEST));
-    block.vector("surface_rgb", surface.rgb.into());
+    shader.block.vector("surface_rgb", surface.rgb.into());
     shader.constant("SURFACE_ALONE", Constant::Bool(surface.alone));
     shader.stages.begin_ray.push("find_surface");
     shader.stages.samples_left.push("end_at_surface");
@@ -66,7 +75,7 @@ pub(crate) fn add_curvature_along_ray(shader: &mut Shader) {
 
 /// Adds the caps of cuts, after the light. `in_styles` says whether some are styles.
 pub(crate) fn add_caps(shader: &mut Shader, in_styles: bool) {
-    shader.add(&[module!("capped")]);
+    shader.add(&[module!("under_cap"), module!("capped")]);
     shader.stages.on_surface.push("cap_surface");
     if in_styles {
         shader.add(&[module!("capped_by_style")]);

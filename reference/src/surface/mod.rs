@@ -23,10 +23,11 @@ pub(crate) use clipped::{Clipped, SurfaceHit};
 pub(crate) use cubic::bracketed;
 pub(crate) use first_root::RootFinder;
 
-use crate::field::{Field, Sampler};
+use crate::field::{Field, Rung, Sampler};
 use crate::with_sampler;
 use drypoint_scene::clip::{ClipPlanes, NO_PLANES};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::measured::Measured;
 use drypoint_scene::volume::BRICK;
 
 /// The surface f = iso of a field.
@@ -86,6 +87,11 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
     /// The field of the surface.
     pub fn field(&self) -> &'f Field<'v, f64> {
         self.field
+    }
+
+    /// The facts of the field that another renderer needs to search the surface.
+    pub fn measured(&self) -> Measured {
+        Measured { bricks: Some(self.field.bricks()), ..self.field.measured(Rung::Gradient) }
     }
 
     /// The bricks of cells in which the field can have the value, in their order ([RAY-2]).

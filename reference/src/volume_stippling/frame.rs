@@ -4,12 +4,12 @@
 use super::dot_counts::{candidates, dots, with_nib};
 use super::elimination::{DotCandidate, eliminate};
 use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
-use super::hidden::HiddenPoints;
+use super::hidden::{self, HiddenPoints};
 use crate::surface::IsoSurface;
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
-use drypoint_scene::points::Points;
+use drypoint_scene::points::{Points, SurfacePoint};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Even, LightDirection, Stipples};
 use drypoint_scene::tone::Tone;
@@ -101,7 +101,20 @@ pub struct FrameDots {
 #[derive(Clone, Debug, Default)]
 struct FramePart {
     dots: Vec<Dot>,
+    /// The points of the dots, where a surface may hide them.
+    points: Vec<SurfacePoint>,
     hidden: u64,
+}
+
+impl FramePart {
+    /// Leaves out the dots that the surface hides. `hides` is asked once for each, in their order.
+    fn leave_out(&mut self, mut hides: impl FnMut(&SurfacePoint) -> bool) {
+        let before = self.dots.len();
+        let mut points = self.points.iter();
+        self.dots.retain(|_| points.next().is_none_or(|point| !hides(point)));
+        self.points.clear();
+        self.hidden += (before - self.dots.len()) as u64;
+    }
 }
 
 impl FrameDots {
@@ -124,6 +137,17 @@ impl FrameDots {
     pub fn larger_than_nib(&self) -> u64 {
         let is_larger = |dot: &&Dot| self.nib.is_some_and(|nib| dot.radius > 0.5 * nib);
         self.dots().filter(is_larger).count() as u64
+    }
+
+    /// The points of candidates that a surface may hide, in their order.
+    pub fn points(&self) -> Vec<SurfacePoint> {
+        self.parts.iter().flat_map(|part| &part.points).copied().collect()
+    }
+
+    /// Leaves out the candidates that a surface hides, by a flag for each of [`points`](Self::points).
+    pub fn leave_out(&mut self, hidden: &[bool]) {
+        let mut hidden = hidden.iter();
+        self.parts.iter_mut().for_each(|part| part.leave_out(|_| hidden.next() == Some(&true)));
     }
 
     /// Number of points that were tested and are hidden ([STIP-15]).
@@ -164,33 +188,40 @@ impl<'a> Frames<'a> {
     /// Draws the dots that a camera sees on a page; with `even = "page"`, the candidates for [`choose_on_page`]. Dots
     /// whose centre lies outside the picture are left out, as are dots nearer than `near` in perspective.
     pub fn draw(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
+        self.candidates(view, page, drawn);
+        if let Some(surface) = self.surface.as_deref() {
+            let hidden = HiddenPoints::new(surface, view, self.near);
+            drawn.parts.par_iter_mut().for_each(|part| part.leave_out(|point| hidden.hides(point)));
+        }
+    }
+
+    /// Distance in world units in front of the surface at which its points are tested, signed towards the side of the
+    /// eye; none if no surface hides them.
+    pub fn in_front(&self, view: &View) -> Option<f64> {
+        self.surface.as_deref().map(|surface| hidden::in_front(surface, view))
+    }
+
+    /// Draws dots like [`draw`](Self::draw), with those that the surface hides.
+    pub fn candidates(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
         let whole =
             VolumeExtent { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
         let moving = CameraFactors::new(self.stipples, self.light, view, &whole);
         let place = IndexToPage::new(view, page, &self.points.grid);
-        let surface = self.surface.as_deref();
-        let hidden = surface.map(|surface| HiddenPoints::new(surface, view, self.near, &self.points.grid));
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, FramePart::default);
         drawn.nib = self.nib;
         drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
             part.hidden = 0;
             part.dots.clear();
+            part.points.clear();
             let range = p * PART..((p + 1) * PART).min(self.points.voxels.len());
             for i in range {
-                self.voxel(i, &moving, &place, hidden.as_ref(), part);
+                self.voxel(i, &moving, &place, part);
             }
         });
     }
 
-    fn voxel(
-        &self,
-        i: usize,
-        moving: &CameraFactors<'_>,
-        place: &IndexToPage,
-        hidden: Option<&HiddenPoints<'_>>,
-        part: &mut FramePart,
-    ) {
+    fn voxel(&self, i: usize, moving: &CameraFactors<'_>, place: &IndexToPage, part: &mut FramePart) {
         let (voxel, each) = (&self.points.voxels[i], self.points.each);
         let centre = voxel.centre();
         let at = place.eye(centre);
@@ -228,7 +259,8 @@ impl<'a> Frames<'a> {
             }
         };
         let (whole, opacity, fading) = opacities;
-        // Each point is projected and tested for visibility.
+        // Each point is projected.
+        let reach = self.surface.is_some().then(|| hidden::reach(&self.points.grid, voxel.normal));
         let list = &self.points.of(i)[..listed];
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
@@ -237,9 +269,8 @@ impl<'a> Frames<'a> {
                 if self.clip.cut_in_world(world) {
                     continue;
                 }
-                if hidden.is_some_and(|hidden| hidden.hides(world, voxel.normal)) {
-                    part.hidden += 1;
-                    continue;
+                if let Some(reach) = reach {
+                    part.points.push(SurfacePoint { at: world, normal: voxel.normal, reach });
                 }
                 let opacity = if k < whole { opacity } else { fading };
                 part.dots.push(Dot { at: on_page, world, radius, opacity });

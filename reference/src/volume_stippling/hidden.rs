@@ -4,6 +4,7 @@ use super::curves::CurveSegment;
 use super::ridge::across;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::points::SurfacePoint;
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use rayon::prelude::*;
@@ -15,37 +16,50 @@ const REACH: f64 = 1.5;
 /// δ of [HATCH-7]: the distance of the visibility test in front of the surface, in voxels of the volume.
 const OFFSET: f64 = 0.15;
 
+/// The reach of a point's foot, in world units. `of_points` is the grid in which points are made ([STIP-2]).
+pub(super) fn reach(of_points: &Grid, normal: DVec3) -> f64 {
+    REACH * across(of_points, normal)
+}
+
+/// Offset of tests from a surface in world units, signed towards the side of the eye.
+pub(super) fn in_front(surface: &IsoSurface<'_, '_>, view: &View) -> f64 {
+    OFFSET * surface.field().volume().grid().voxel() * surface.front(view)
+}
+
 /// A visibility test of points for one camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HiddenPoints<'a> {
     surface: &'a IsoSurface<'a, 'a>,
     view: &'a View,
     near: f64,
-    /// The grid in which points are made ([STIP-2]).
-    of_points: &'a Grid,
-    /// Offset in world units, signed towards the side of the eye.
+    /// See [`in_front`].
     offset: f64,
 }
 
 impl<'a> HiddenPoints<'a> {
-    /// `near` is the near distance of a perspective camera. `of_points` is the grid in which points are made
-    /// ([STIP-2]).
-    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64, of_points: &'a Grid) -> Self {
-        let voxel = surface.field().volume().grid().voxel();
-        Self { surface, view, near, of_points, offset: OFFSET * voxel * surface.front(view) }
+    /// `near` is the near distance of a perspective camera.
+    pub(super) fn new(surface: &'a IsoSurface<'a, 'a>, view: &'a View, near: f64) -> Self {
+        Self { surface, view, near, offset: in_front(surface, view) }
     }
 
-    /// Whether the surface hides a point of the world. `normal` is the normal of its voxel.
+    /// Whether the surface hides a point.
     ///
     /// A point near the surface is tested at its foot, moved by δ in front. Otherwise its own distance would hide it
     /// behind the surface that it represents. A foot that a clip plane cuts away is none.
-    pub(super) fn hides(&self, point: DVec3, normal: DVec3) -> bool {
+    pub(super) fn hides(&self, point: &SurfacePoint) -> bool {
+        let &SurfacePoint { at, normal, reach } = point;
         let grid = self.surface.field().volume().grid();
-        let foot = self.surface.foot(grid.to_index(point), normal, REACH * across(self.of_points, normal));
+        let foot = self.surface.foot(grid.to_index(at), normal, reach);
         let foot = foot.filter(|&foot| !self.surface.clip().cut(foot));
         let in_front = |foot| grid.to_world(foot) + self.surface.normal(foot).unwrap_or(normal) * self.offset;
-        self.surface.hides(foot.map_or(point, in_front), self.view, self.near)
+        self.surface.hides(foot.map_or(at, in_front), self.view, self.near)
     }
+}
+
+/// Whether a surface hides a point, which is tested so far in front of its foot, in world units. `near` is the near distance
+/// of a perspective camera.
+pub fn hides(surface: &IsoSurface<'_, '_>, view: &View, near: f64, in_front: f64, point: &SurfacePoint) -> bool {
+    HiddenPoints { surface, view, near, offset: in_front }.hides(point)
 }
 
 /// The segments of curves whose middle the surface does not hide. `of_points` is the grid in which they are made.
@@ -56,9 +70,13 @@ pub fn seen(
     near: f64,
     of_points: &Grid,
 ) -> Vec<CurveSegment> {
-    let hidden = HiddenPoints::new(surface, view, near, of_points);
-    let middle = |segment: &CurveSegment| (segment.ends[0] + segment.ends[1]) / 2.0;
-    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(middle(segment), segment.normal)).collect();
+    let hidden = HiddenPoints::new(surface, view, near);
+    let middle = |segment: &CurveSegment| SurfacePoint {
+        at: (segment.ends[0] + segment.ends[1]) / 2.0,
+        normal: segment.normal,
+        reach: reach(of_points, segment.normal),
+    };
+    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(&middle(segment))).collect();
     let mut hides = hides.into_iter();
     segments.retain(|_| hides.next() == Some(false));
     segments
@@ -96,7 +114,8 @@ mod tests {
         for projection in [Projection::Orthographic { height: None }, Projection::Perspective { fov: 40.0 }] {
             let camera = Camera { projection, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5);
+            let near = |at, normal| SurfacePoint { at, normal, reach: reach(volume.grid(), normal) };
             // Between slices the surface lies below the sphere by as much as a chord does, more than between cubes.
             let below = (slices * slices - 1) as f64 / (8.0 * radius);
             let limit = -(2.0 * (OFFSET + below) / radius).sqrt();
@@ -106,7 +125,7 @@ mod tests {
                 let point = centre + n * (radius + 1.3 * draw(3) * across(volume.grid(), n));
                 let foot = centre + n * radius;
                 let towards = if view.perspective { (view.eye - foot).normalize() } else { -view.forward };
-                let hides = hidden.hides(point, n);
+                let hides = hidden.hides(&near(point, n));
                 if n.dot(towards) > 0.0 {
                     assert!(!hides, "{}", n.dot(towards));
                     front += 1;
@@ -116,7 +135,7 @@ mod tests {
                 }
             }
             // A point without a foot is tested itself: inside the sphere it is hidden, in front of it it is visible.
-            let hides = |along: f64| hidden.hides(centre + direction.normalize() * along, DVec3::X);
+            let hides = |along: f64| hidden.hides(&near(centre + direction.normalize() * along, DVec3::X));
             assert!(hides(1.0) && hides(18.0) && !hides(-18.0));
         }
         assert!(front > 2500 && back > 2500, "{front} {back}");
@@ -137,11 +156,12 @@ mod tests {
         let projection = Projection::Orthographic { height: None };
         let camera = Camera { projection, direction: DVec3::NEG_X, ..Camera::default() };
         let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-        let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
+        let hidden = HiddenPoints::new(&surface, &view, 0.5);
+        let near = |at, normal| SurfacePoint { at, normal, reach: reach(volume.grid(), normal) };
         for (x, distance, expected) in [(29.9, 13.2, true), (29.0, 13.9, false)] {
             let across = f64::sqrt(distance * distance - (x - 20.0) * (x - 20.0));
             let out = DVec3::new(x - 20.0, across, 0.0);
-            assert_eq!(hidden.hides(centre + out, out.normalize()), expected, "{x}");
+            assert_eq!(hidden.hides(&near(centre + out, out.normalize())), expected, "{x}");
         }
     }
 
@@ -160,13 +180,18 @@ mod tests {
             let camera =
                 Camera { projection: Projection::Orthographic { height: None }, direction, ..Camera::default() };
             let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-            let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
+            let hidden = HiddenPoints::new(&surface, &view, 0.5);
+            let near = |at, normal| SurfacePoint { at, normal, reach: reach(volume.grid(), normal) };
             for i in 0..=40 {
                 // Points of the voxels of the outer flanks lie up to half a voxel beyond their centres.
                 let out = -0.25 + 2.5 * f64::from(i) / 40.0;
                 for side in [1.0, -1.0] {
                     let (point, normal) = (DVec3::new(2.0, 2.0, middle + side * out), DVec3::Z * side);
-                    assert_eq!(hidden.hides(point, normal), normal.dot(direction) > 0.0, "{direction} {side} {out}");
+                    assert_eq!(
+                        hidden.hides(&near(point, normal)),
+                        normal.dot(direction) > 0.0,
+                        "{direction} {side} {out}"
+                    );
                 }
             }
         }
@@ -186,11 +211,12 @@ mod tests {
             ..Camera::default()
         };
         let view = View::new(&camera, volume.grid(), [64, 64]).unwrap();
-        let hidden = HiddenPoints::new(&surface, &view, 0.5, volume.grid());
+        let hidden = HiddenPoints::new(&surface, &view, 0.5);
+        let near = |at, normal| SurfacePoint { at, normal, reach: reach(volume.grid(), normal) };
         assert!(surface.normal(DVec3::new(2.0, 2.0, 10.0)).is_none());
         for side in [1.0, -1.0] {
             let point = DVec3::new(2.0, 2.0, 10.0 + 0.3 * side);
-            assert_eq!(hidden.hides(point, DVec3::Z * side), side < 0.0);
+            assert_eq!(hidden.hides(&near(point, DVec3::Z * side)), side < 0.0);
         }
     }
 }

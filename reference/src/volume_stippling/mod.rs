@@ -26,5 +26,5 @@ pub use curves::{CurveSegment, CurveVoxels, exhaustive};
 pub use elimination::{DotCandidate, eliminate};
 pub use error::StippleError;
 pub use frame::{FrameDots, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
-pub use hidden::seen;
+pub use hidden::{hides, seen};
 pub use preprocess::{Preprocess, StippleInputs};

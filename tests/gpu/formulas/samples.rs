@@ -6,8 +6,10 @@ use drypoint::reference::number::Vec3;
 use drypoint::reference::ray::opacity::Correction;
 use drypoint::reference::shading::Phong;
 use drypoint::reference::transfer::Piecewise;
+use drypoint::scene::clip::{ClipPlane, ClipPlanes};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::shot::PhongParams;
+use drypoint::scene::space::Grid;
 
 /// Half a last place of 1 in f32: the error of one operation.
 const U: f64 = 1.0 / (1u64 << 24) as f64;
@@ -283,4 +285,92 @@ fn gpu_errors(
             .map(|(t, i, number)| (number - truth(t, i)).abs())
             .fold(0.0, f64::max)
     })
+}
+
+/// The part of a line that planes leave, by planes at random; one of them is parallel to some lines. A place between the
+/// planes and beyond them.
+#[test]
+fn parts_that_planes_leave() {
+    let Some(gpu) = gpu() else { return };
+    let mut next = random(23);
+    let grid = Grid::with_spacing([16; 3], [1.0; 3]).unwrap();
+    let mut plane = |normal: [f64; 3]| {
+        let point = DVec3::splat(6.0) + DVec3::from_array(unit(&mut next)) * 4.0;
+        let plane = ClipPlane::in_index(point, DVec3::from_array(normal), &grid);
+        let rounded = |x: f64| f64::from(x as f32);
+        let index_normal = DVec3::from_array(plane.index_normal.to_array().map(rounded));
+        ClipPlane { index_normal, index_offset: rounded(plane.index_offset), ..plane }
+    };
+    let planes = ClipPlanes(vec![plane([1.0, 0.5, -0.25]), plane([0.0, 0.0, 1.0]), plane([-0.75, 1.0, 0.5])]);
+    let list: Vec<f64> = planes
+        .0
+        .iter()
+        .flat_map(|plane| [plane.index_normal.to_array().as_slice(), &[plane.index_offset], &[0.0; 8]].concat())
+        .collect();
+    let mut next = random(24);
+    let mut table: Vec<[f64; 6]> = Vec::new();
+    for i in 0..3000 {
+        let ([a, b, c], [d, e, f]) = (unit(&mut next), unit(&mut next));
+        let along = if i % 5 == 0 { [d, e, 0.0] } else { [d, e, f] };
+        table.push([6.0 + 6.0 * a, 6.0 + 6.0 * b, 6.0 + 6.0 * c, along[0], along[1], along[2]]);
+    }
+    let line = |&[a, b, c, d, e, f]: &[f64; 6]| [DVec3::new(a, b, c), DVec3::new(d, e, f)];
+    // Lines almost parallel to a plane, and ends almost at one place, are decisions.
+    let growths =
+        |row: &[f64; 6]| planes.0.iter().map(|plane| plane.index_normal.dot(line(row)[1])).collect::<Vec<_>>();
+    table.retain(|row| {
+        let crossings: Vec<f64> =
+            planes.0.iter().zip(growths(row)).map(|(plane, b)| -plane.beyond(line(row)[0]) / b).collect();
+        let apart = |ends: [f64; 2]| (ends[0] - ends[1]).abs() > 1e-2;
+        growths(row).iter().all(|b| *b == 0.0 || b.abs() > 0.05)
+            && planes.0.iter().all(|plane| plane.beyond(line(row)[0]).abs() > 1e-2)
+            && (0..3).all(|i| (0..i).all(|j| apart([crossings[i], crossings[j]])))
+            && crossings.iter().all(|&t| !t.is_finite() || apart([t, -40.0]) && apart([t, 40.0]))
+    });
+    let kernel = Kernel {
+        modules: format!("const PLANES = 3;\n{}", modules(&["ray/ray", "ray/planes"])),
+        vectors: &[("box_low", [0.0; 3]), ("box_high", [15.0; 3])],
+        lists: &[(7, &list)],
+        before: "var ray: Ray;
+            ray.origin = vec3<real>(x[0], x[1], x[2]);
+            ray.along = vec3<real>(x[3], x[4], x[5]);
+            ray.depth_step = 1.0;
+            let kept = kept_of(ray, -40.0, 40.0);
+            let is_left = kept.start <= kept.end;",
+        results: &[
+            "select(real(0.0), real(1.0), is_left)",
+            "select(real(0.0), kept.start, is_left)",
+            "select(real(0.0), kept.end, is_left)",
+            "select(real(-1.0), real(kept.entry), is_left)",
+            "select(real(-1.0), real(kept.exit), is_left)",
+            "select(real(0.0), real(1.0), is_cut(ray.origin))",
+        ],
+        ..Kernel::default()
+    };
+    let truth = |row: &[f64; 6]| {
+        let is_cut = f64::from(planes.cut(line(row)[0]));
+        let place = |plane: Option<usize>| plane.map_or(-1.0, |plane| plane as f64);
+        match planes.kept(line(row), [-40.0, 40.0]) {
+            Some(kept) => [1.0, kept.range[0], kept.range[1], place(kept.entry), place(kept.exit), is_cut],
+            None => [0.0, 0.0, 0.0, -1.0, -1.0, is_cut],
+        }
+    };
+    // A distance of terms up to 40, over a growth of at least 1/20.
+    hold("planes", errors(&gpu, &kernel, &table, truth, |_, _, _| 800.0), 16.0 * U);
+}
+
+/// A cap over a colour of its own.
+#[test]
+fn caps_over_colours() {
+    let Some(gpu) = gpu() else { return };
+    let mut next = random(25);
+    let table: Vec<[f64; 3]> = (0..500).map(|_| [next(), next(), next()]).collect();
+    let kernel = Kernel {
+        modules: format!("{TYPES}{PLACE}{}", modules(&["number/number", "surface/under_cap"])),
+        before: "let covered = under_cap(Shaded(vec3<real>(x[0]), 1.0), Shaded(vec3<real>(x[1]), x[2]));",
+        results: &["covered.rgb.y", "covered.alpha"],
+        ..Kernel::default()
+    };
+    let truth = |&[own, cap, opacity]: &[f64; 3]| [own + (cap - own) * opacity, 1.0];
+    hold("caps", errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0), 4.0 * U);
 }

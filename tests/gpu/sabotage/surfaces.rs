@@ -31,16 +31,16 @@ fn faults_of_cuts_of_surfaces_are_noticed() {
         &surface(&format!("{CUT}cap = \"#ff3010a0\"\n")),
         &[
             ("select(over <= 0.0, over >= 0.0, OUTSIDE_IS_LOW)", "select(over >= 0.0, over <= 0.0, OUTSIDE_IS_LOW)"),
-            ("if (b < 0.0 && t > start) {", "if (b > 0.0 && t > start) {"),
-            ("        hit = start;\n", "        hit = start + 0.5;\n"),
-            ("let root = first_root(ray, start);", "let root = first_root(ray, params.near_steps);"),
+            ("if (b < 0.0 && t > kept.start) {", "if (b > 0.0 && t > kept.start) {"),
+            ("        hit = kept.start;\n", "        hit = kept.start + 0.5;\n"),
+            ("first_root(ray, kept.start, NO_HIT)", "first_root(ray, params.near_steps, NO_HIT)"),
             ("    cut_plane = hit_plane;\n", "    cut_plane = -1;\n"),
             ("lerp3(own.rgb, cap.rgb, cap.alpha)", "lerp3(own.rgb, cap.rgb, 1.0)"),
         ],
     );
     // A plane behind which a part of the surface lies.
     let far = CUT.replace("[0.3, -0.3, 1]", "[-0.3, 0.3, -1]");
-    all_are_noticed(&surface(&far), &[("if (root <= end) {", "if (root <= NO_HIT) {")]);
+    all_are_noticed(&surface(&far), &[("if (root <= kept.end) {", "if (root <= NO_HIT) {")]);
 }
 
 #[test]

@@ -30,7 +30,7 @@ fn page(line: &str) -> (Vec<Dot>, Counts, DVec3) {
     let mut counts = job.counts.clone();
     let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
     let marks = stippling.frames().draw(&job.view().unwrap(), &mut counts);
-    (marks.layers[0].dots.clone(), counts, job.volume.grid().centre())
+    (marks.unwrap_or_else(|failure| panic!("{failure}")).layers[0].dots.clone(), counts, job.volume.grid().centre())
 }
 
 /// Where the sphere's surface lies among the values: the middle of the 8 bits.

@@ -4,12 +4,19 @@ use super::{Scales, kernel};
 use crate::Interpolation;
 use crate::shader::{Constant, Data, Shader, module};
 use drypoint_scene::measured::Measured;
-use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Object, Outside};
+use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Outside, Reconstruction};
 
 /// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding ([PREC-3]).
-pub(crate) fn add(shader: &mut Shader, object: &Object, measured: &Measured, scales: &Scales, no_normal: f64) {
-    let kernel = object.reconstruction.kernel;
-    match object.reconstruction.gradient {
+pub(crate) fn add(
+    shader: &mut Shader,
+    how: Reconstruction,
+    normal: NormalDirection,
+    measured: &Measured,
+    scales: &Scales,
+    no_normal: f64,
+) {
+    let kernel = how.kernel;
+    match how.gradient {
         GradientEstimator::Central => {
             add_central(shader, measured);
             shader.add(&[module!("by_central")]);
@@ -33,9 +40,9 @@ pub(crate) fn add(shader: &mut Shader, object: &Object, measured: &Measured, sca
         block.vector(name, scales.to_world.col(column));
     }
     block.number("no_normal_below", scales.gradient(measured.gradient_scale * no_normal));
-    let outward = if object.reconstruction.outside == Outside::Low { -1.0 } else { 1.0 };
-    block.number("outwards", if object.normal == NormalDirection::Inward { -outward } else { outward });
-    block.number("facing", f64::from(u8::from(object.normal == NormalDirection::Facing)));
+    let outward = if how.outside == Outside::Low { -1.0 } else { 1.0 };
+    block.number("outwards", if normal == NormalDirection::Inward { -outward } else { outward });
+    block.number("facing", f64::from(u8::from(normal == NormalDirection::Facing)));
 }
 
 /// Adds central differences of the voxels.
