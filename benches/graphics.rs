@@ -1,6 +1,6 @@
 //! Frames of a graphics card: 256³ voxels, 512×512 pixels of one ray, steps of half a voxel; each effect with the shader's
-//! interpolation and with the texture unit's, and by the reference. Ratios are to Phong shading, as Table 1 of Bruckner and
-//! Gröller 2007 has styles (0.98 to 1.25 there).
+//! interpolation and with the texture unit's, and by the reference. Ratios are to Phong shading: Table 1 of Bruckner and
+//! Gröller 2007 has styles at 0.98 to 1.25, that of their halos has M = 4 at 2.9.
 //!
 //! `cargo bench --bench graphics --features gpu`
 
@@ -61,25 +61,35 @@ nodes = [
 ]
 "##;
 
-/// Phong shading, to whose times the others stand in ratios.
-const PHONG: &str = "Phong";
+/// Name of a scene, that of the scene to whose time its own stands in a ratio, and its tables.
+type Row = (&'static str, &'static str, &'static [&'static str]);
 
-const SCENES: [(&str, &[&str]); 7] = [
-    ("unshaded", &[COLOURS]),
-    (PHONG, &[COLOURS, "[shading]\n"]),
-    ("Phong, cubic B-spline", &[KERNEL, COLOURS, "[shading]\n"]),
-    ("styles", &[STYLES]),
-    ("styles, contours", &[STYLES, "[contours]\n"]),
-    ("styles, contours of exact κ", &[STYLES, "[contours]\nkappa = \"exact\"\n"]),
-    ("styles, contours, mip-maps", &[STYLES, "[contours]\n[style_mipmaps]\n"]),
+const SCENES: [Row; 10] = [
+    ("unshaded", "Phong", &[COLOURS]),
+    ("Phong", "Phong", &[COLOURS, "[shading]\n"]),
+    ("Phong, cubic B-spline", "Phong", &[KERNEL, COLOURS, "[shading]\n"]),
+    ("styles", "Phong", &[STYLES]),
+    ("styles, contours", "Phong", &[STYLES, "[contours]\n"]),
+    ("styles, contours of exact κ", "Phong", &[STYLES, "[contours]\nkappa = \"exact\"\n"]),
+    ("styles, contours, mip-maps", "Phong", &[STYLES, "[contours]\n[style_mipmaps]\n"]),
+    ("Phong, a halo, M = 1", "Phong", &[COLOURS, "[shading]\n", HALO]),
+    ("Phong, a halo, M = 4", "Phong", &[COLOURS, "[shading]\n", HALO, "every = 4\n"]),
+    (
+        "Phong, four halos, M = 4",
+        "Phong",
+        &[COLOURS, "[shading]\n", HALO, "every = 4\n", HALO, "every = 4\n", HALO, "every = 4\n", HALO, "every = 4\n"],
+    ),
 ];
+
+/// A halo around the shell.
+const HALO: &str = "[[halo]]\nseed.value = [[150, 0], [180, 1]]\n";
 
 fn main() -> Result<(), String> {
     let gpu = Gpu::new().map_err(|error| error.to_string())?;
     let fast = gpu.interpolating(Interpolation::Fast);
     let cards: Vec<&Gpu> = [Some(&gpu), fast.as_ref().ok()].into_iter().flatten().collect();
     let mut volume = None;
-    let jobs = SCENES.iter().map(|(_, parts)| job(parts, &mut volume)).collect::<Result<Vec<_>, _>>()?;
+    let jobs = SCENES.iter().map(|(_, _, parts)| job(parts, &mut volume)).collect::<Result<Vec<_>, _>>()?;
     let mut kinds = Vec::new();
     for job in &jobs {
         let frames = cards.iter().map(|gpu| GpuFrames::new(job, gpu)).collect::<Result<Vec<_>, _>>();
@@ -95,8 +105,7 @@ fn main() -> Result<(), String> {
         "| | reference, ms | rays, ms | shown, ms | as a picture, ms | to Phong | fast: rays, ms | shown, ms | to Phong |"
     );
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
-    let phong = SCENES.iter().position(|(name, _)| *name == PHONG).ok_or("no Phong")?;
-    for ((name, _), kind) in SCENES.iter().zip(&kinds) {
+    for ((name, base, _), kind) in SCENES.iter().zip(&kinds) {
         print!("| {name} | {:.0}", 1e3 * kind.median(|round| round.reference));
         for card in 0..kind.frames.len() {
             print!(" | {:.2}", 1e3 * kind.median(|round| round.cards[card].rays));
@@ -105,7 +114,8 @@ fn main() -> Result<(), String> {
                 print!(" | {:.1}", 1e3 * kind.median(|round| round.cards[card].picture));
             }
             let rays = |kind: &Kind| kind.rounds[WARM..].iter().map(|round| round.cards[card].rays).collect::<Vec<_>>();
-            let ratios: Vec<f64> = rays(kind).iter().zip(rays(&kinds[phong])).map(|(own, phong)| own / phong).collect();
+            let base = SCENES.iter().position(|(name, ..)| name == base).ok_or("no such scene")?;
+            let ratios: Vec<f64> = rays(kind).iter().zip(rays(&kinds[base])).map(|(own, base)| own / base).collect();
             print!(" | {:.2}", median(&ratios));
         }
         println!(" |");
