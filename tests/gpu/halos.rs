@@ -251,7 +251,7 @@ fn what_halos_add() {
     };
     assert!(!text("").contains("halo") && !text("").contains("seed"));
     assert!(!text("[[halo]]\nopacity = 0\n").contains("halo"));
-    assert!(text("[[halo]]\n").contains("fn halo_seeds"));
+    assert!(text("[[halo]]\n").contains("fn halo_planes"));
 }
 
 #[test]
@@ -262,4 +262,34 @@ fn a_picture_that_is_too_large() {
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
     let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
     assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
+}
+
+/// TIMING, not kept.
+#[test]
+#[ignore]
+fn timing() {
+    let Some(gpu) = gpu() else { return };
+    let base = std::fs::read_to_string("/tmp/gpuhalos/scene.toml").unwrap();
+    let one = "[[halo]]\n";
+    let four = "[[halo]]\n[[halo]]\nkind = \"emissive\"\n[[halo]]\nseed.by = \"curvature\"\n[[halo]]\nkind = \"emissive\"\nseed.by = \"curvature\"\n";
+    let every = |text: &str, m: i32| text.replace("[[halo]]\n", &format!("[[halo]]\nevery = {m}\n"));
+    for (name, more) in [
+        ("none", String::new()),
+        ("one", one.to_owned()),
+        ("one, M = 4", every(one, 4)),
+        ("four", four.to_owned()),
+        ("four, M = 4", every(four, 4)),
+    ] {
+        let scene = parse(&format!("{base}{more}"), "scene.toml".as_ref(), &Overrides::default()).unwrap();
+        let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
+        let drawn = GpuJob::new(&job, &gpu, Precision::Single).unwrap();
+        let mut renderer = drawn.renderer().unwrap_or_else(|failure| panic!("{failure}"));
+        let mut best = f64::INFINITY;
+        for _ in 0..3 {
+            let start = std::time::Instant::now();
+            renderer.frame(&|_| ()).unwrap();
+            best = best.min(start.elapsed().as_secs_f64());
+        }
+        println!("{name}: {best:.3} s");
+    }
 }
