@@ -3,7 +3,7 @@
 use crate::double::differences;
 use crate::two_quantities::{labels, styles, torus};
 use crate::{field, gpu};
-use drypoint::gpu::{GpuJob, Precision};
+use drypoint::gpu::{GpuFrames, GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::space::Grid;
@@ -264,32 +264,21 @@ fn a_picture_that_is_too_large() {
     assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
 }
 
-/// TIMING, not kept.
+/// Frames of a camera that turns are those of a renderer of its own: other planes, the same images.
 #[test]
-#[ignore]
-fn timing() {
+fn frames() {
     let Some(gpu) = gpu() else { return };
-    let base = std::fs::read_to_string("/tmp/gpuhalos/scene.toml").unwrap();
-    let one = "[[halo]]\n";
-    let four = "[[halo]]\n[[halo]]\nkind = \"emissive\"\n[[halo]]\nseed.by = \"curvature\"\n[[halo]]\nkind = \"emissive\"\nseed.by = \"curvature\"\n";
-    let every = |text: &str, m: i32| text.replace("[[halo]]\n", &format!("[[halo]]\nevery = {m}\n"));
-    for (name, more) in [
-        ("none", String::new()),
-        ("one", one.to_owned()),
-        ("one, M = 4", every(one, 4)),
-        ("four", four.to_owned()),
-        ("four, M = 4", every(four, 4)),
-    ] {
-        let scene = parse(&format!("{base}{more}"), "scene.toml".as_ref(), &Overrides::default()).unwrap();
-        let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
-        let drawn = GpuJob::new(&job, &gpu, Precision::Single).unwrap();
-        let mut renderer = drawn.renderer().unwrap_or_else(|failure| panic!("{failure}"));
-        let mut best = f64::INFINITY;
-        for _ in 0..3 {
-            let start = std::time::Instant::now();
-            renderer.frame(&|_| ()).unwrap();
-            best = best.min(start.elapsed().as_secs_f64());
-        }
-        println!("{name}: {best:.3} s");
-    }
+    let job = |direction: &str| {
+        let text = scene("", "[[halo]]\n[[halo]]\nkind = \"emissive\"\nevery = 3\n");
+        let text = text.replace("direction = [0.3, 1, -0.4]", direction);
+        let scene = parse(&text, "scene.toml".as_ref(), &Overrides::default()).unwrap();
+        Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"))
+    };
+    let (first, second) = (job("direction = [0.3, 1, -0.4]"), job("direction = [-1, 0.2, 0.4]"));
+    let fresh = |job: &Job| GpuFrames::new(job, &gpu).and_then(|mut frames| frames.frame(&|_| ())).unwrap().0;
+    let mut frames = GpuFrames::new(&first, &gpu).unwrap();
+    assert_eq!(frames.frame(&|_| ()).unwrap().0, fresh(&first));
+    frames.turn(&second.shot().unwrap()).unwrap();
+    assert_eq!(frames.frame(&|_| ()).unwrap().0, fresh(&second));
+    assert_ne!(fresh(&first), fresh(&second));
 }

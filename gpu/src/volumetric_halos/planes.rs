@@ -19,7 +19,7 @@ const PIXELS_AT_ONCE: u64 = 1 << 26;
 const GROUP_BYTES: u64 = 24;
 
 /// The most tiles in each direction in which seeds of a tile are spread.
-const TILE_REACH: usize = 3;
+const TILE_REACH: usize = 1;
 
 /// Rays across and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -395,4 +395,47 @@ fn empty(gpu: &Gpu, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -
         mapped_at_creation: false,
     };
     gpu.attempt(what, || gpu.device.create_buffer(&descriptor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::shot::{HaloAccumulation, HaloSeed, HaloSource, HaloSpread, SeedSide};
+
+    fn halo(kind: HaloKind, every: i64) -> HaloParams {
+        let side = SeedSide::Power { exponent: 1.0 };
+        HaloParams {
+            name: "halo".into(),
+            kind,
+            seed: HaloSeed { value: None, direction: None, focus: None, labels: None, gradient_exponent: 1.0, side },
+            spread: HaloSpread { from: HaloSource::Gradient, passes: 4, delta: 0.8, stretch: 1.0, median: false },
+            profile: Vec::new(),
+            opacity: 1.0,
+            floor: 0.0,
+            every,
+            accumulate: HaloAccumulation::Max,
+            tints: Vec::new(),
+        }
+    }
+
+    /// Groups follow each other without a gap, end where some halo's do, and go on until no halo shines any more.
+    #[test]
+    fn groups_of_planes_by_hand() {
+        let planes = |halos: &[HaloParams], ends: [i64; 2]| {
+            groups(halos, |_| false, ends).iter().map(|group| group.planes).collect::<Vec<_>>()
+        };
+        let (dark, bright) = (|every| halo(HaloKind::Occlusive, every), |every| halo(HaloKind::Emissive, every));
+        assert_eq!(planes(&[dark(4)], [-3, 6]), [[-3, -1], [0, 3], [4, 6]]);
+        // Seeds of plane 6 shine behind the planes 8 to 11.
+        assert_eq!(planes(&[bright(4)], [2, 6]), [[2, 3], [4, 7], [8, 11]]);
+        assert_eq!(planes(&[dark(2), bright(3)], [0, 3]), [[0, 1], [2, 2], [3, 3], [4, 5], [6, 7], [8, 8]]);
+        let all = groups(&[dark(2), bright(3)], |_| false, [0, 3]);
+        assert_eq!(
+            all.iter().map(|group| group.all_end).collect::<Vec<_>>(),
+            [false, false, false, true, false, false]
+        );
+        assert_eq!(all.iter().map(|group| group.is_asked).collect::<Vec<_>>(), [true, true, true, true, true, false]);
+        // Nothing is reached.
+        assert_eq!(planes(&[dark(4)], [5, 2]), [[0; 2]; 0]);
+    }
 }

@@ -55,16 +55,16 @@ fn halo_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let tile = at.y * TILES_X + at.x;
-    var is_reached = false;
-    var is_near = false;
+    var seeded = 0u;
+    var open = 0u;
     for (var y = max(at.y - TILE_REACH, 0); y <= min(at.y + TILE_REACH, TILES_Y - 1); y++) {
         for (var x = max(at.x - TILE_REACH, 0); x <= min(at.x + TILE_REACH, TILES_X - 1); x++) {
             let other = y * TILES_X + x;
-            is_reached = is_reached || atomicLoad(&tile_flags[flag_place(TILE_SEEDED, other)]) != 0u;
-            let open = i32(atomicLoad(&tile_flags[flag_place(TILE_OPEN, other)]));
-            is_near = is_near || open > plane_group.number;
+            seeded = max(seeded, atomicLoad(&tile_flags[flag_place(TILE_SEEDED, other)]));
+            open = max(open, atomicLoad(&tile_flags[flag_place(TILE_OPEN, other)]));
         }
     }
+    let is_reached = seeded != 0u;
     let was_reached = atomicLoad(&tile_flags[flag_place(TILE_ACTIVE, tile)]) != 0u;
     if (is_reached || was_reached) {
         let place = flag_place(TILE_COUNTS, 0) + plane_group.number;
@@ -73,5 +73,5 @@ fn halo_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
     // Halos whose groups go on keep their intensities.
     let stays = is_reached || (was_reached && plane_group.all_end == 0);
     set_flag(TILE_ACTIVE, tile, select(0u, 1u, stays));
-    set_flag(TILE_NEAR, tile, select(0u, 1u, is_near));
+    set_flag(TILE_NEAR, tile, select(0u, 1u, open > u32(plane_group.number)));
 }

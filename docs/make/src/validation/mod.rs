@@ -115,7 +115,7 @@ The grants of operations and their sources are a table in `reference/src/number/
 const REST: &str = "
 ## Not drawn by graphics cards yet
 
-Halos, lines inside a volume, counts of samples as a layer, iso-surfaces that planes cut or that are lit otherwise than the volume, and further volumes with values that are not numbers.
+Lines inside a volume, counts of samples as a layer, iso-surfaces that planes cut or that are lit otherwise than the volume, and further volumes with values that are not numbers.
 A scene that asks for one of them is refused, with the key that asks; the CPU draws it.
-Bounds are known for colours over a transfer function that is not read from a table, without rays at edges; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
+Bounds are known for colours over a transfer function that is not read from a table, without rays at edges and without halos; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
 ";
