@@ -3,7 +3,7 @@
 use crate::double::differences;
 use crate::two_quantities::{labels, styles, torus};
 use crate::{field, gpu};
-use drypoint::gpu::{GpuJob, Precision};
+use drypoint::gpu::{GpuFrames, GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::space::Grid;
@@ -251,7 +251,7 @@ fn what_halos_add() {
     };
     assert!(!text("").contains("halo") && !text("").contains("seed"));
     assert!(!text("[[halo]]\nopacity = 0\n").contains("halo"));
-    assert!(text("[[halo]]\n").contains("fn halo_seeds"));
+    assert!(text("[[halo]]\n").contains("fn halo_planes"));
 }
 
 #[test]
@@ -262,4 +262,23 @@ fn a_picture_that_is_too_large() {
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
     let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
     assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
+}
+
+/// Frames of a camera that turns are those of a renderer of its own: other planes, the same images.
+#[test]
+fn frames() {
+    let Some(gpu) = gpu() else { return };
+    let job = |direction: &str| {
+        let text = scene("", "[[halo]]\n[[halo]]\nkind = \"emissive\"\nevery = 3\n");
+        let text = text.replace("direction = [0.3, 1, -0.4]", direction);
+        let scene = parse(&text, "scene.toml".as_ref(), &Overrides::default()).unwrap();
+        Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"))
+    };
+    let (first, second) = (job("direction = [0.3, 1, -0.4]"), job("direction = [-1, 0.2, 0.4]"));
+    let fresh = |job: &Job| GpuFrames::new(job, &gpu).and_then(|mut frames| frames.frame(&|_| ())).unwrap().0;
+    let mut frames = GpuFrames::new(&first, &gpu).unwrap();
+    assert_eq!(frames.frame(&|_| ()).unwrap().0, fresh(&first));
+    frames.turn(&second.shot().unwrap()).unwrap();
+    assert_eq!(frames.frame(&|_| ()).unwrap().0, fresh(&second));
+    assert_ne!(fresh(&first), fresh(&second));
 }

@@ -1,5 +1,15 @@
 // Emissive halos: the glow behind a plane (3.3, [HALO-7]).
 
+// Whether an emissive halo has an intensity at a place of the images.
+fn can_glow(place: i32) -> bool {
+    for (var i = 0; i < HALOS; i++) {
+        if (halos[i].is_occlusive == 0.0 && intensity_of(i, place) > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The premultiplied glow of all emissive halos at a place of the images, for one plane; the first one lies in front. A ray
 // takes `ratio` reference lengths from plane to plane ([VAL-4]).
 fn glow_at(place: i32, ratio: real) -> vec4<real> {

@@ -21,8 +21,8 @@ fn seed_gradient(x: i32, y: i32, layer: i32, taps: HaloTaps) -> vec4<real> {
 
 // H_0: the gradient of the seeds, or the seeds as they are.
 @compute @workgroup_size(8, 8)
-fn halo_source(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec3<i32>(id);
+fn halo_source(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>) {
+    let at = vec3(listed_pixel(group, own), i32(group.z));
     if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
         return;
     }

@@ -5,8 +5,11 @@ struct PlaneGroup {
     first: i32,
     last: i32,
     end: i32,
-    // HaloTaps of a pass lie q 2^exponent rays apart.
+    // Taps of a pass lie q 2^exponent rays apart.
     exponent: i32,
+    // Groups counted from 0, and 1 where the groups of all halos end.
+    number: i32,
+    all_end: i32,
 }
 
 @group(2) @binding(0) var<storage, read> plane_group: PlaneGroup;

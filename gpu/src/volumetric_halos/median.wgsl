@@ -45,8 +45,8 @@ fn seed_column(x: i32, y: i32, layer: i32) -> Column {
 }
 
 @compute @workgroup_size(8, 8)
-fn halo_median(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec3<i32>(id);
+fn halo_median(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>) {
+    let at = vec3(listed_pixel(group, own), i32(group.z));
     if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
         return;
     }

@@ -71,6 +71,7 @@ pub(crate) fn add(
         ELEMENTARY,
         module!("halos"),
         module!("images"),
+        module!("tiles"),
         module!("profile"),
         module!("tint"),
         module!("glow"),
@@ -84,11 +85,17 @@ pub(crate) fn add(
         ("IMAGE_X", size.image[0]),
         ("IMAGE_Y", size.image[1]),
         ("GUARD", size.guard),
+        ("TILE", size.tile),
+        ("TILES_X", size.tiles[0]),
+        ("TILES_Y", size.tiles[1]),
+        ("TILE_REACH", size.tile_reach),
         ("FIRST_TAPS", first_taps),
         ("MOST_PASSES", most_passes.max(1) as usize),
     ] {
         shader.constant(name, Constant::Int(value as i64));
     }
+    let emits = list.iter().any(|halo| halo.kind == HaloKind::Emissive);
+    shader.constant("EMISSIVE", Constant::Bool(emits));
     shader.constant(
         "TAPS_ALIKE",
         Constant::Bool(list.chunks(4).all(|four| four.iter().all(|halo| alike(halo, &four[0])))),

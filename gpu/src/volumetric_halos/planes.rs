@@ -17,7 +17,10 @@ const GROUP: u32 = 8;
 const PIXELS_AT_ONCE: u64 = 1 << 26;
 
 /// Bytes of a group of planes as a shader reads it.
-const GROUP_BYTES: u64 = 16;
+const GROUP_BYTES: u64 = 24;
+
+/// The most tiles in each direction in which seeds of a tile are spread.
+const TILE_REACH: usize = 1;
 
 /// Rays across and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +31,12 @@ pub(crate) struct ImageSize {
     pub(crate) image: [usize; 2],
     /// Rays of the guard band on each side.
     pub(crate) guard: usize,
+    /// Rays along the side of a tile of the images: whole workgroups.
+    pub(crate) tile: usize,
+    /// Tiles across and down.
+    pub(crate) tiles: [usize; 2],
+    /// Tiles in each direction that the guard band reaches.
+    pub(crate) tile_reach: usize,
 }
 
 /// The size of a shot's images.
@@ -35,7 +44,9 @@ pub(crate) fn image_size(shot: &Shot) -> ImageSize {
     let guard = shot.halos.list.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0);
     let rays = shot.view.size.map(|n| n * shot.rays_across);
     // Images that do not fit are refused by their bytes.
-    ImageSize { rays, image: rays.map(|n| n.saturating_add(guard.saturating_mul(2))), guard }
+    let image = rays.map(|n| n.saturating_add(guard.saturating_mul(2)));
+    let tile = guard.div_ceil(TILE_REACH * GROUP as usize).max(1) * GROUP as usize;
+    ImageSize { rays, image, guard, tile, tiles: image.map(|n| n.div_ceil(tile)), tile_reach: guard.div_ceil(tile) }
 }
 
 /// The largest N.
@@ -55,10 +66,10 @@ pub(crate) fn taps(halo: &HaloParams, exponent: u32, size: ImageSize) -> [f64; 2
 struct PlaneGroup {
     /// The first plane and the last one, counted from the eye.
     planes: [i64; 2],
-    /// Whether a sample can seed.
-    seeds: bool,
-    /// N of the halos whose groups end here; none: nobody asks for their intensities.
-    passes: Option<u32>,
+    /// Whether the groups of all halos end here.
+    all_end: bool,
+    /// Whether a plane that follows asks for the intensities.
+    is_asked: bool,
 }
 
 /// The groups of planes of a picture whose samples lie on the planes first..=last.
@@ -77,9 +88,8 @@ fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last
     let mut next = first;
     while next <= end_of_all {
         let end = halos.iter().map(|halo| end_of(halo, next)).min().unwrap_or(end_of_all).min(end_of_all);
-        let ended = halos.iter().filter(|halo| end_of(halo, end) == end);
-        let passes = if end < end_of_all { ended.map(|halo| halo.spread.passes).max() } else { None };
-        groups.push(PlaneGroup { planes: [next, end], seeds: next <= last, passes });
+        let all_end = halos.iter().all(|halo| end_of(halo, end) == end);
+        groups.push(PlaneGroup { planes: [next, end], all_end, is_asked: end < end_of_all });
         next = end + 1;
     }
     groups
@@ -101,12 +111,14 @@ pub(crate) struct HaloPlanes {
     fours: u32,
     pixels: [u32; 2],
     halos: Vec<HaloParams>,
+    /// The largest N.
+    passes: u32,
     watched: Vec<bool>,
     groups: Vec<PlaneGroup>,
     anchor: i64,
     start: wgpu::ComputePipeline,
-    rays: wgpu::ComputePipeline,
-    seeds: wgpu::ComputePipeline,
+    visit: wgpu::ComputePipeline,
+    tiles: wgpu::ComputePipeline,
     median: Option<wgpu::ComputePipeline>,
     source: wgpu::ComputePipeline,
     spread: wgpu::ComputePipeline,
@@ -116,6 +128,8 @@ pub(crate) struct HaloPlanes {
     state_layout: wgpu::BindGroupLayout,
     /// Numbers of rays, of seeds' rays, then S, H and O.
     state: [wgpu::Buffer; 5],
+    /// The tiles that passes visit.
+    tile_list: wgpu::Buffer,
     images: Images,
 }
 
@@ -158,6 +172,7 @@ impl HaloPlanes {
             image()?,
             image()?,
         ];
+        let tile_list = empty(gpu, "the tiles of halos", 4 * (size.tiles[0] as u64) * size.tiles[1] as u64, storage)?;
         let [width, height] = shot.view.size;
         // Layouts and passes.
         let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
@@ -173,7 +188,7 @@ impl HaloPlanes {
             },
             ..list_entry(0, true)
         };
-        let entries: Vec<_> = std::iter::once(group).chain((1..=5).map(|binding| list_entry(binding, false))).collect();
+        let entries: Vec<_> = std::iter::once(group).chain((1..=7).map(|binding| list_entry(binding, false))).collect();
         let state_layout = layout("rays", &entries)?;
         let image_layout = layout("images", &[list_entry(0, true), list_entry(1, true), list_entry(2, false)])?;
         let pass = |entry_point, with_images: bool| {
@@ -188,13 +203,14 @@ impl HaloPlanes {
             size,
             fours: fours as u32,
             pixels: [width as u32, height as u32],
+            passes: most_passes(&halos),
             halos,
             watched,
             groups: Vec::new(),
             anchor: 0,
             start: pass("halo_start", false)?,
-            rays: pass("halo_rays", false)?,
-            seeds: pass("halo_seeds", false)?,
+            visit: pass("halo_planes", false)?,
+            tiles: pass("halo_tiles", false)?,
             median: has_median.then(|| pass("halo_median", true)).transpose()?,
             source: pass("halo_source", true)?,
             spread: pass("halo_spread", true)?,
@@ -203,6 +219,7 @@ impl HaloPlanes {
             params_layout,
             state_layout,
             state,
+            tile_list,
             images,
         };
         planes.turn(shot, grid);
@@ -221,13 +238,17 @@ impl HaloPlanes {
         let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
         let (records, firsts) = self.records(stride);
         let group_list = buffer(gpu, "the groups of planes", &records, wgpu::BufferUsages::STORAGE)?;
+        let tiles = self.size.tiles[0] * self.size.tiles[1];
+        let flags = vec![0; 4 * (4 * tiles + self.groups.len())];
+        let flags = buffer(gpu, "the tiles of halos", &flags, wgpu::BufferUsages::STORAGE)?;
         let [params, state] = gpu.attempt("the halos", || {
             let params_entries = [entry(0, canvas.params), entry(1, &canvas.picture.out)];
             let planes =
                 wgpu::BufferBinding { buffer: &group_list, offset: 0, size: wgpu::BufferSize::new(GROUP_BYTES) };
             let planes = wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(planes) };
             let state = (1..).zip(&self.state).map(|(binding, buffer)| entry(binding, buffer));
-            let state_entries: Vec<_> = std::iter::once(planes).chain(state).collect();
+            let tiles = [entry(6, &flags), entry(7, &self.tile_list)];
+            let state_entries: Vec<_> = std::iter::once(planes).chain(state).chain(tiles).collect();
             let group = |layout, entries: &[wgpu::BindGroupEntry<'_>]| {
                 gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("halos"), layout, entries })
             };
@@ -235,7 +256,6 @@ impl HaloPlanes {
         })?;
         let across = |[x, y]: [usize; 2]| [(x as u32).div_ceil(GROUP), (y as u32).div_ceil(GROUP), 1];
         let of_image = across(self.size.image);
-        let of_fours = [of_image[0], of_image[1], self.fours];
         let image_pixels = (self.size.image[0] * self.size.image[1]) as u64;
         let mut at = 0;
         loop {
@@ -245,8 +265,7 @@ impl HaloPlanes {
             while end < self.groups.len() && written < PIXELS_AT_ONCE {
                 let group = &self.groups[end];
                 let planes = (group.planes[1] - group.planes[0] + 1).unsigned_abs();
-                let images = u64::from(group.passes.map_or(0, |passes| passes + 2) * self.fours);
-                written += image_pixels * (2 * planes + images);
+                written += image_pixels * (2 * planes + u64::from((self.passes + 2) * self.fours));
                 end += 1;
             }
             let is_first = at == 0;
@@ -263,15 +282,10 @@ impl HaloPlanes {
                     let group = &self.groups[at];
                     let record = |exponent: u32| ((firsts[at] + u64::from(exponent)) * stride) as u32;
                     run.set_bind_group(2, &state, &[record(0)]);
-                    let of_rays = across(self.size.rays);
-                    run.set_pipeline(&self.rays);
-                    run.dispatch_workgroups(of_rays[0], of_rays[1], 1);
-                    if group.seeds {
-                        run.set_pipeline(&self.seeds);
-                        run.dispatch_workgroups(of_image[0], of_image[1], 1);
-                    }
-                    if let Some(passes) = group.passes {
-                        self.generate(run, &state, passes, record, of_fours);
+                    run.set_pipeline(&self.visit);
+                    run.dispatch_workgroups(of_image[0], of_image[1], 1);
+                    if group.is_asked {
+                        self.generate(run, &state, record);
                     }
                 }
                 if is_last {
@@ -294,14 +308,12 @@ impl HaloPlanes {
     }
 
     /// From the seeds of groups that end to intensities.
-    fn generate(
-        &self,
-        run: &mut wgpu::ComputePass<'_>,
-        state: &wgpu::BindGroup,
-        passes: u32,
-        record: impl Fn(u32) -> u32,
-        [x, y, z]: [u32; 3],
-    ) {
+    fn generate(&self, run: &mut wgpu::ComputePass<'_>, state: &wgpu::BindGroup, record: impl Fn(u32) -> u32) {
+        let [across, down] = self.size.tiles.map(|n| n as u32);
+        run.set_pipeline(&self.tiles);
+        run.dispatch_workgroups(across.div_ceil(GROUP), down.div_ceil(GROUP), 1);
+        let side = self.size.tile as u32 / GROUP;
+        let [x, y, z] = [across * side, down * side, self.fours];
         if let Some(median) = &self.median {
             run.set_pipeline(median);
             run.set_bind_group(3, &self.images.median, &[]);
@@ -310,7 +322,7 @@ impl HaloPlanes {
         run.set_pipeline(&self.source);
         run.set_bind_group(3, &self.images.source, &[]);
         run.dispatch_workgroups(x, y, z);
-        let last = passes.saturating_sub(1);
+        let last = self.passes.saturating_sub(1);
         for i in 0..=last {
             run.set_pipeline(if i == last { &self.end } else { &self.spread });
             run.set_bind_group(2, state, &[record(last - i)]);
@@ -324,13 +336,14 @@ impl HaloPlanes {
     fn records(&self, stride: u64) -> (Vec<u8>, Vec<u64>) {
         let mut firsts = Vec::new();
         let mut records = Vec::new();
-        for group in &self.groups {
+        for (number, group) in (0..).zip(&self.groups) {
             firsts.push(records.len() as u64 / stride);
-            for exponent in 0..group.passes.unwrap_or(0).max(1) {
+            for exponent in 0..self.passes.max(1) {
                 let [first, last] = group.planes;
+                let all_end = i64::from(group.all_end);
                 // Planes are counted in 23 bits.
-                let words =
-                    [first - self.anchor, last - self.anchor, last, i64::from(exponent)].map(|word| word as i32);
+                let words = [first - self.anchor, last - self.anchor, last, i64::from(exponent), number, all_end];
+                let words = words.map(|word| word as i32);
                 records.extend(words.iter().flat_map(|word| word.to_le_bytes()));
                 records.resize(records.len().next_multiple_of(stride as usize), 0);
             }
@@ -375,4 +388,47 @@ fn empty(gpu: &Gpu, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -
         mapped_at_creation: false,
     };
     gpu.attempt(what, || gpu.device.create_buffer(&descriptor))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drypoint_scene::shot::{HaloAccumulation, HaloSeed, HaloSource, HaloSpread, SeedSide};
+
+    fn halo(kind: HaloKind, every: i64) -> HaloParams {
+        let side = SeedSide::Power { exponent: 1.0 };
+        HaloParams {
+            name: "halo".into(),
+            kind,
+            seed: HaloSeed { value: None, direction: None, focus: None, labels: None, gradient_exponent: 1.0, side },
+            spread: HaloSpread { from: HaloSource::Gradient, passes: 4, delta: 0.8, stretch: 1.0, median: false },
+            profile: Vec::new(),
+            opacity: 1.0,
+            floor: 0.0,
+            every,
+            accumulate: HaloAccumulation::Max,
+            tints: Vec::new(),
+        }
+    }
+
+    /// Groups follow each other without a gap, end where some halo's do, and go on until no halo shines any more.
+    #[test]
+    fn groups_of_planes_by_hand() {
+        let planes = |halos: &[HaloParams], ends: [i64; 2]| {
+            groups(halos, |_| false, ends).iter().map(|group| group.planes).collect::<Vec<_>>()
+        };
+        let (dark, bright) = (|every| halo(HaloKind::Occlusive, every), |every| halo(HaloKind::Emissive, every));
+        assert_eq!(planes(&[dark(4)], [-3, 6]), [[-3, -1], [0, 3], [4, 6]]);
+        // Seeds of plane 6 shine behind the planes 8 to 11.
+        assert_eq!(planes(&[bright(4)], [2, 6]), [[2, 3], [4, 7], [8, 11]]);
+        assert_eq!(planes(&[dark(2), bright(3)], [0, 3]), [[0, 1], [2, 2], [3, 3], [4, 5], [6, 7], [8, 8]]);
+        let all = groups(&[dark(2), bright(3)], |_| false, [0, 3]);
+        assert_eq!(
+            all.iter().map(|group| group.all_end).collect::<Vec<_>>(),
+            [false, false, false, true, false, false]
+        );
+        assert_eq!(all.iter().map(|group| group.is_asked).collect::<Vec<_>>(), [true, true, true, true, true, false]);
+        // Nothing is reached.
+        assert_eq!(planes(&[dark(4)], [5, 2]), [[0; 2]; 0]);
+    }
 }

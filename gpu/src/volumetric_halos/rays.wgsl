@@ -31,6 +31,15 @@ fn keep_front(ray: i32, front: Front) {
     ray_numbers[ray_place(RAY_OPACITY, ray)] = front.opacity;
 }
 
+fn is_in_picture(at: vec2<i32>) -> bool {
+    return all(at >= vec2(0)) && at.x < RAYS_X && at.y < RAYS_Y;
+}
+
+// Notes that something behind these planes would be seen on a ray.
+fn set_open(at: vec2<i32>) {
+    set_flag(TILE_OPEN, tile_of(at + GUARD), u32(plane_group.number + 1));
+}
+
 // Starts a ray of the picture before all planes.
 fn start_ray(number: i32, ray: Ray) {
     begin_ray(ray);
@@ -79,26 +88,25 @@ fn meet_end(ray: Ray, tint: Tint, front: Front) -> Front {
     return Front(front.rgb + (1.0 - front.opacity) * tinted(end.rgb, tint), 1.0);
 }
 
-// Composites the planes of a group: at each one its sample, then the glow of the groups before.
-@compute @workgroup_size(8, 8)
-fn halo_rays(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec2<i32>(id.xy);
-    if (at.x >= RAYS_X || at.y >= RAYS_Y) {
-        return;
-    }
+// Composites the planes of a group on a ray of the picture: at each one its sample, then the glow of the groups before.
+fn go_on(at: vec2<i32>) {
     let number = at.y * RAYS_X + at.x;
     if (ray_numbers[ray_place(RAY_OPACITY, number)] >= params.stop_at) {
         return;
     }
     let place = (at.y + GUARD) * IMAGE_X + at.x + GUARD;
     watch(number, place);
-    let point = image_point(at + GUARD);
-    let ray = ray_through(point.x, point.y);
-    let glow = glow_at(place, ray.step / params.reference_length);
-    let glows = glow.a > 0.0;
+    let glows = EMISSIVE && can_glow(place);
     var next = i32(ray_numbers[ray_place(RAY_NEXT, number)]);
     if (next > plane_group.last && !glows) {
+        set_open(at);
         return;
+    }
+    let point = image_point(at + GUARD);
+    let ray = ray_through(point.x, point.y);
+    var glow = vec4<real>();
+    if (glows) {
+        glow = glow_at(place, ray.step / params.reference_length);
     }
     var front = front_of(number);
     let last = i32(ray_numbers[ray_place(RAY_LAST, number)]);
@@ -127,6 +135,9 @@ fn halo_rays(@builtin(global_invocation_id) id: vec3<u32>) {
     keep_front(number, front);
     ray_numbers[ray_place(RAY_NEXT, number)] = real(next);
     keep_ray(number);
+    if (front.opacity < params.stop_at) {
+        set_open(at);
+    }
 }
 
 // The mean of a pixel over its rays ([RAY-6]), over the background ([IO-6]).

@@ -63,6 +63,7 @@ fn add_seed(halo: i32, place: i32, s: real) {
     let before = seed_image[at][halo % 4];
     let sum = select(max(before, s), before + s / halos[halo].every, halos[halo].is_mean == 1.0);
     seed_image[at][halo % 4] = sum;
+    set_flag(TILE_SEEDED, tile_of(vec2(place % IMAGE_X, place / IMAGE_X)), 1u);
 }
 
 // Adds the seeds of a sample.
@@ -113,23 +114,20 @@ fn halo_start(@builtin(global_invocation_id) id: vec3<u32>) {
     seed_ray_numbers[seed_place(0, place)] = real(run.x);
     seed_ray_numbers[seed_place(1, place)] = real(run.y);
     keep_seed(place);
+    // At first seeds can reach every ray.
+    set_flag(TILE_NEAR, tile_of(at), 1u);
     let own = at - GUARD;
-    if (all(own >= vec2(0)) && own.x < RAYS_X && own.y < RAYS_Y) {
+    if (is_in_picture(own)) {
         start_ray(own.y * RAYS_X + own.x, ray);
     }
 }
 
-// Adds the seeds of a group's planes.
-@compute @workgroup_size(8, 8)
-fn halo_seeds(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec2<i32>(id.xy);
-    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
-        return;
-    }
+// Adds the seeds of a group's planes, at a pixel of the images.
+fn sow_planes(at: vec2<i32>) {
     let place = at.y * IMAGE_X + at.x;
     var k = max(i32(seed_ray_numbers[seed_place(0, place)]), plane_group.first);
     let last = min(i32(seed_ray_numbers[seed_place(1, place)]), plane_group.last);
-    if (k > last) {
+    if (k > last || !is_near_open(at)) {
         return;
     }
     let point = image_point(at);
@@ -149,4 +147,18 @@ fn halo_seeds(@builtin(global_invocation_id) id: vec3<u32>) {
         sow(ray, sample, place);
     }
     seed_ray_numbers[seed_place(0, place)] = real(k);
+}
+
+// Visits a group's planes: rays of the picture composite them, and all rays seed. Neither asks for what the other does.
+@compute @workgroup_size(8, 8)
+fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = vec2<i32>(id.xy);
+    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+        return;
+    }
+    let own = at - GUARD;
+    if (is_in_picture(own)) {
+        go_on(own);
+    }
+    sow_planes(at);
 }

@@ -73,8 +73,8 @@ fn spread_four(x: i32, y: i32, four: i32) -> vec4<real> {
 }
 
 @compute @workgroup_size(8, 8)
-fn halo_spread(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec3<i32>(id);
+fn halo_spread(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>) {
+    let at = vec3(listed_pixel(group, own), i32(group.z));
     if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
         return;
     }
@@ -83,8 +83,8 @@ fn halo_spread(@builtin(global_invocation_id) id: vec3<u32>) {
 
 // The last pass. Values below the floor are 0; O = max(O, H), S = 0. Halos whose group goes on keep theirs.
 @compute @workgroup_size(8, 8)
-fn halo_end(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec3<i32>(id);
+fn halo_end(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_id) own: vec3<u32>) {
+    let at = vec3(listed_pixel(group, own), i32(group.z));
     if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
         return;
     }
@@ -100,6 +100,9 @@ fn halo_end(@builtin(global_invocation_id) id: vec3<u32>) {
             o[c] = max(o[c], h[c]);
             s[c] = 0.0;
         }
+    }
+    if (plane_group.all_end == 1) {
+        set_flag(TILE_SEEDED, tile_of(at.xy), 0u);
     }
     halo_image[place] = h;
     occlusion_image[place] = o;

@@ -123,7 +123,7 @@ All else is that of `--backend gpu`. No bound of a pixel is derived for it.
 
 ## Not drawn by graphics cards yet
 
-Halos. A scene with halos is refused, and the CPU draws it.
+Lines inside a volume with halos. A scene that asks for them is refused, with the key that asks; the CPU draws it.
 A layer of counts has the samples that the card evaluates, which f32 and the skipping of bricks make other ones than the CPU's; a sample that lines split counts once.
-Bounds are known for colours over a transfer function that is not read from a table, without rays at edges; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
+Bounds are known for colours over a transfer function that is not read from a table, without rays at edges and without halos; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
 ";
