@@ -61,7 +61,7 @@ struct PenDots {
 }
 
 /// A test of which points a surface hides, from a camera and so far in front of the surface.
-pub(crate) type PointTest<'a> = Box<dyn FnMut(&View, f64, &[SurfacePoint]) -> Result<Vec<bool>, Failure> + 'a>;
+pub type PointTest<'a> = Box<dyn FnMut(&View, f64, &[SurfacePoint]) -> Result<Vec<bool>, Failure> + 'a>;
 
 /// Frames of points.
 pub struct DotFrames<'a> {
@@ -173,12 +173,12 @@ impl<'a> Stippling<'a> {
 
 impl<'a> DotFrames<'a> {
     /// Returns the surface that hides points, and the near distance of a perspective camera.
-    pub(crate) fn hiding(&self) -> Option<(&IsoSurface<'a, 'a>, f64)> {
+    pub fn hiding(&self) -> Option<(&IsoSurface<'a, 'a>, f64)> {
         self.surface.as_deref().map(|surface| (surface, self.stippling.setting.near))
     }
 
     /// Sets the test of hidden points in place of the reference's.
-    pub(crate) fn test_by(&mut self, test: PointTest<'a>) {
+    pub fn test_by(&mut self, test: PointTest<'a>) {
         self.test = Some(test);
     }
 
