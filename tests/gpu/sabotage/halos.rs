@@ -25,7 +25,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
         "if (is_reached || was_reached) {",
         "if (is_reached) {",
         "",
-        "[[halo]]\nkind = \"emissive\"\nseed.focus = { at = [[20, 10, 15]], inner = 8, falloff = 0 }\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n",
+        "[[halo]]\nkind = \"emissive\"\nseed.focus = { at = [[8, 10, 15]], inner = 9, falloff = 0 }\nspread.passes = 2\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n",
     ),
     (
         "select(0u, 1u, open > u32(plane_group.number))",
