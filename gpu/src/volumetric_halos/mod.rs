@@ -76,7 +76,14 @@ pub(crate) fn add(
         module!("tint"),
         module!("glow"),
     ]);
-    shader.add(&[module!("rays"), module!("seeds"), module!("seed_value"), module!("spreading")]);
+    shader.add(&[
+        module!("rays"),
+        module!("seeds"),
+        module!("planes"),
+        module!("measure_once"),
+        module!("seed_value"),
+        module!("spreading"),
+    ]);
     for (name, value) in [
         ("HALOS", list.len()),
         ("HALO_VECTORS", list.len().div_ceil(4)),
@@ -255,7 +262,7 @@ fn add_stages(
     // Seeds have their own query, and so has what is composited.
     let is_asked = |stage: &&str| transfer::over::is_of(stage, shot.halos.query) && *stage != "measure_cut";
     let first = if asks_first { &[][..] } else { &stages.measured_first };
-    let measured: Vec<&'static str> = first.iter().chain(&stages.measured).copied().filter(is_asked).collect();
+    let mut measured: Vec<&'static str> = first.iter().chain(&stages.measured).copied().filter(is_asked).collect();
     stages.measured.retain(|stage| *stage == "measure_cut" || transfer::over::is_of(stage, own));
     let has = |list: &[&'static str], name: &'static str| list.contains(&name).then_some(name);
     let mut kept: Vec<Kept> = Vec::new();
@@ -271,6 +278,11 @@ fn add_stages(
         kept.extend(layers::KEPT.map(Kept::real));
     }
     let watched = |layer: &LayerKind| if let LayerKind::Halo(halo) = layer { Some(*halo) } else { None };
+    for stage in stages.measured_first.iter_mut().chain(&mut stages.measured).chain(&mut measured) {
+        if *stage == "measure_gradient" {
+            *stage = "measure_gradient_once";
+        }
+    }
     stages.halos = Some(Stages {
         kept,
         seed_kept,

@@ -12,9 +12,6 @@ const NO_PLANE = 8000000;
 
 @group(2) @binding(1) var<storage, read_write> ray_numbers: array<real>;
 
-// The plane of the step that comes after the sample that was visited.
-var<private> plane_after: i32;
-
 fn ray_place(number: i32, ray: i32) -> i32 {
     return number * (RAYS_X * RAYS_Y) + ray;
 }
@@ -51,20 +48,8 @@ fn start_ray(number: i32, ray: Ray) {
     begin_watch(number);
 }
 
-// Composites sample k under a tint ([VAL-3], [VAL-4]).
-fn visit_sample(ray: Ray, k: i32, tint: Tint, front: Front) -> Front {
-    var sample: Sample;
-    sample.k = k;
-    sample.position = position(ray, k);
-    sample.at = locate(sample.position);
-    plane_after = next_plane(ray, sample);
-    if (plane_after > k) {
-        // What lies before that plane shows nothing.
-        return front;
-    }
-    plane_after = k + 1;
-    sample.s = value_at(sample.at);
-    sample.place = node_place(locate_value(sample.s));
+// Composites a sample under a tint ([VAL-3], [VAL-4]).
+fn composite_sample(ray: Ray, sample: Sample, tint: Tint, front: Front) -> Front {
     if (!(sample.place.alpha_u > 0.0)) {
         return front;
     }
@@ -74,7 +59,7 @@ fn visit_sample(ray: Ray, k: i32, tint: Tint, front: Front) -> Front {
     }
     let attributes = measured_rest(ray, sample, first);
     let shaded = shown(ray, sample, attributes);
-    let alpha = corrected(shaded.alpha, ray.step / params.reference_length * steps_of(k));
+    let alpha = corrected(shaded.alpha, ray.step / params.reference_length * steps_of(sample.k));
     collect(ray, sample, attributes, alpha);
     return over(front, tinted(in_blend_space(shaded.rgb), tint), alpha);
 }
@@ -88,56 +73,52 @@ fn meet_end(ray: Ray, tint: Tint, front: Front) -> Front {
     return Front(front.rgb + (1.0 - front.opacity) * tinted(end.rgb, tint), 1.0);
 }
 
-// Composites the planes of a group on a ray of the picture: at each one its sample, then the glow of the groups before.
-fn go_on(at: vec2<i32>) {
-    let number = at.y * RAYS_X + at.x;
-    if (ray_numbers[ray_place(RAY_OPACITY, number)] >= params.stop_at) {
-        return;
+// A ray of the picture while it visits a group's planes.
+struct RayOnPlanes {
+    number: i32,
+    // The plane of its next step; NO_PLANE for a ray that has ended. The last plane of its samples.
+    next: i32,
+    last: i32,
+    front: Front,
+    tint: Tint,
+    // The glow behind each plane.
+    glows: bool,
+    glow: vec4<real>,
+}
+
+// Whether what lies behind would be seen.
+fn is_open(front: Front) -> bool {
+    return front.opacity < params.stop_at;
+}
+
+// The ray of a pixel of the picture, if these planes show something on it.
+fn resume_on_planes(at: vec2<i32>) -> RayOnPlanes {
+    var own: RayOnPlanes;
+    own.number = at.y * RAYS_X + at.x;
+    own.next = NO_PLANE;
+    if (ray_numbers[ray_place(RAY_OPACITY, own.number)] >= params.stop_at) {
+        return own;
     }
     let place = (at.y + GUARD) * IMAGE_X + at.x + GUARD;
-    watch(number, place);
-    let glows = EMISSIVE && can_glow(place);
-    var next = i32(ray_numbers[ray_place(RAY_NEXT, number)]);
-    if (next > plane_group.last && !glows) {
-        set_open(at);
-        return;
+    watch(own.number, place);
+    set_open(at);
+    let next = i32(ray_numbers[ray_place(RAY_NEXT, own.number)]);
+    own.glows = EMISSIVE && can_glow(place);
+    if (next > plane_group.last && !own.glows) {
+        return own;
     }
-    let point = image_point(at + GUARD);
-    let ray = ray_through(point.x, point.y);
-    var glow = vec4<real>();
-    if (glows) {
-        glow = glow_at(place, ray.step / params.reference_length);
-    }
-    var front = front_of(number);
-    let last = i32(ray_numbers[ray_place(RAY_LAST, number)]);
-    let tint = tint_at(place, -1);
-    resume_ray(number, ray);
-    for (var k = plane_group.first; k <= plane_group.last && front.opacity < params.stop_at; k++) {
-        if (!glows) {
-            k = max(k, next);
-            if (k > plane_group.last) {
-                break;
-            }
-        }
-        if (k == next) {
-            if (k <= last) {
-                front = visit_sample(ray, k, tint, front);
-                next = select(end_plane(), plane_after, plane_after <= last);
-            } else {
-                front = meet_end(ray, tint, front);
-                next = NO_PLANE;
-            }
-        }
-        if (glows && front.opacity < params.stop_at) {
-            front = over_premultiplied(front, glow);
-        }
-    }
-    keep_front(number, front);
-    ray_numbers[ray_place(RAY_NEXT, number)] = real(next);
-    keep_ray(number);
-    if (front.opacity < params.stop_at) {
-        set_open(at);
-    }
+    own.next = next;
+    own.last = i32(ray_numbers[ray_place(RAY_LAST, own.number)]);
+    own.front = front_of(own.number);
+    own.tint = tint_at(place, -1);
+    return own;
+}
+
+// Keeps a ray for the groups that follow.
+fn leave_planes(own: RayOnPlanes) {
+    keep_front(own.number, own.front);
+    ray_numbers[ray_place(RAY_NEXT, own.number)] = real(own.next);
+    keep_ray(own.number);
 }
 
 // The mean of a pixel over its rays ([RAY-6]), over the background ([IO-6]).

@@ -1,5 +1,5 @@
 // h_v: the opacity of the transfer function ([HALO-2]).
 
 fn ask_opacity(ray: Ray, sample: Sample) {
-    seed_alpha_u = node_place(locate_value(sample.s)).alpha_u;
+    seed_alpha_u = sample.place.alpha_u;
 }

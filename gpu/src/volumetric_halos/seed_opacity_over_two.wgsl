@@ -2,7 +2,7 @@
 // attributes.
 
 fn ask_opacity(ray: Ray, sample: Sample) {
-    if (!(node_place(locate_value(sample.s)).alpha_u > 0.0)) {
+    if (!(sample.place.alpha_u > 0.0)) {
         return;
     }
     seed_known = measured_first(ray, sample);

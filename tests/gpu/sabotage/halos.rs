@@ -9,14 +9,35 @@ const NOTICED: f64 = 1e-4;
 /// The faults: the text that is there, the text in its place, keys of the picture, further tables.
 const FAULTS: &[(&str, &str, &str, &str)] = &[
     // Planes: one too few, the glow of the plane before, a sample of the next plane, groups that end early.
-    ("plane_after = k + 1;", "plane_after = k + 2;", "", "[[halo]]\n"),
-    ("if (k == next) {", "if (k == next + 1) {", "", "[[halo]]\n"),
+    ("own.next = select(after, k + 1, after == k);", "own.next = select(after, k + 2, after == k);", "", "[[halo]]\n"),
+    ("let has_step = k == own.next;", "let has_step = k == own.next + 1;", "", "[[halo]]\n"),
     ("return (((k + 1) % every)", "return (((k + 2) % every)", "", "[[halo]]\nevery = 4\n"),
     (
-        "for (; k <= last; k++) {\n        var sample: Sample;",
-        "for (; k < last; k++) {\n        var sample: Sample;",
+        "next_seed = select(after_seed, k + 1, after_seed == k);",
+        "next_seed = select(after_seed, k + 2, after_seed == k);",
         "",
         "[[halo]]\nevery = 4\n",
+    ),
+    ("measured_plane != sample.k", "measured_plane == -NO_PLANE", "", "[[halo]]\nevery = 4\n"),
+    // Tiles: out of reach, images that keep what was there, rays that are open.
+    ("y = max(at.y - TILE_REACH, 0)", "y = at.y", "", "[[halo]]\n"),
+    (
+        "if (is_reached || was_reached) {",
+        "if (is_reached) {",
+        "",
+        "[[halo]]\nkind = \"emissive\"\nseed.focus = { at = [[8, 10, 15]], inner = 9, falloff = 0 }\nspread.passes = 2\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n",
+    ),
+    (
+        "select(0u, 1u, open > u32(plane_group.number))",
+        "select(0u, 1u, open > u32(plane_group.number + 1))",
+        "",
+        "[[halo]]\n",
+    ),
+    (
+        "tile % TILES_X, tile / TILES_X) * TILE",
+        "tile / TILES_X, tile % TILES_X) * TILE",
+        "",
+        "[[halo]]\nspread.passes = 1\n",
     ),
     ("s[c] = 0.0;", "s[c] = s[c];", "", "[[halo]]\n"),
     ("o[c] = max(o[c], h[c]);", "o[c] = h[c];", "", "[[halo]]\n"),
@@ -65,7 +86,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
         "",
         "[[halo]]\nseed.focus = { at = [[20, 10, 15]], inner = 4, falloff = 8 }\n",
     ),
-    ("seed_alpha_u = node_place(locate_value(sample.s)).alpha_u;", "seed_alpha_u = 1.0;", "", "[[halo]]\n"),
+    ("seed_alpha_u = sample.place.alpha_u;", "seed_alpha_u = 1.0;", "", "[[halo]]\n"),
     (
         "lerp(halo_numbers[at + 2], halo_numbers[at + 3]",
         "lerp(halo_numbers[at + 3], halo_numbers[at + 2]",
@@ -114,7 +135,12 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     ),
     ("halo_numbers[i32(halos[i].first_tint) + of_halo] == 0.0", "true", "", FIVE),
     ("corrected(color.a, ratio)", "color.a", "", "[[halo]]\nkind = \"emissive\"\n"),
-    ("front = over_premultiplied(front, glow);", "front = front;", "", "[[halo]]\nkind = \"emissive\"\n"),
+    (
+        "own.front = over_premultiplied(own.front, own.glow);",
+        "own.front = own.front;",
+        "",
+        "[[halo]]\nkind = \"emissive\"\n",
+    ),
     ("tinted(in_blend_space(shaded.rgb), tint)", "in_blend_space(shaded.rgb)", "", "[[halo]]\n"),
     (
         "tinted(end.rgb, tint)",

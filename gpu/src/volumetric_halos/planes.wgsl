@@ -1,0 +1,98 @@
+// The visit of a group's planes: rays of the picture composite them, and rays of the images seed ([HALO-1], [HALO-7]). On
+// each plane a ray composites its sample, then the glow of the groups before, then it seeds; neither asks for what the
+// other does, and a sample that is visited for both is measured once.
+
+@compute @workgroup_size(8, 8)
+fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
+    let at = vec2<i32>(id.xy);
+    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+        return;
+    }
+    let place = at.y * IMAGE_X + at.x;
+    var own: RayOnPlanes;
+    own.next = NO_PLANE;
+    if (is_in_picture(at - GUARD)) {
+        own = resume_on_planes(at - GUARD);
+    }
+    let visits = own.next <= plane_group.last || own.glows;
+    var next_seed = i32(seed_ray_numbers[seed_place(0, place)]);
+    let last_seed = i32(seed_ray_numbers[seed_place(1, place)]);
+    let seeds = next_seed <= min(last_seed, plane_group.last) && is_near_open(at);
+    if (!visits && !seeds) {
+        return;
+    }
+    if (!seeds) {
+        next_seed = NO_PLANE;
+    }
+    let point = image_point(at);
+    let ray = ray_through(point.x, point.y);
+    resume_seed(place, ray);
+    if (visits) {
+        resume_ray(own.number, ray);
+    }
+    if (own.glows) {
+        own.glow = glow_at(place, ray.step / params.reference_length);
+    }
+    forget_sample();
+    for (var k = plane_group.first; k <= plane_group.last; k++) {
+        if (!own.glows) {
+            // What lies before shows and seeds nothing.
+            k = max(k, min(own.next, next_seed));
+            if (k > plane_group.last) {
+                break;
+            }
+        }
+        let has_step = k == own.next;
+        if (has_step && k > own.last) {
+            own.front = meet_end(ray, own.tint, own.front);
+            own.next = NO_PLANE;
+        }
+        if ((has_step && k <= own.last) || k == next_seed) {
+            var sample: Sample;
+            sample.k = k;
+            sample.position = position(ray, k);
+            sample.at = locate(sample.position);
+            // The planes up to these show and seed nothing.
+            let after = select(k, next_plane(ray, sample), has_step);
+            let after_seed = select(k, next_seed_plane(ray, sample), k == next_seed);
+            let shows = has_step && k <= own.last && after == k;
+            let sows = k == next_seed && after_seed == k;
+            if (shows || sows) {
+                sample.s = value_at(sample.at);
+                sample.place = node_place(locate_value(sample.s));
+            }
+            if (shows) {
+                own.front = composite_sample(ray, sample, own.tint, own.front);
+            }
+            if (has_step && k <= own.last) {
+                own.next = select(after, k + 1, after == k);
+                if (own.next > own.last) {
+                    own.next = end_plane();
+                }
+            }
+            if (sows) {
+                sow(ray, sample, place);
+            }
+            if (k == next_seed) {
+                next_seed = select(after_seed, k + 1, after_seed == k);
+                if (next_seed > last_seed) {
+                    next_seed = NO_PLANE;
+                }
+            }
+        }
+        if (own.glows && is_open(own.front)) {
+            own.front = over_premultiplied(own.front, own.glow);
+        }
+        if (visits && !is_open(own.front)) {
+            // What lies in front hides all that follows.
+            own.next = NO_PLANE;
+            own.glows = false;
+        }
+    }
+    if (visits) {
+        leave_planes(own);
+    }
+    if (seeds) {
+        seed_ray_numbers[seed_place(0, place)] = real(next_seed);
+    }
+}
