@@ -49,6 +49,9 @@ pub(crate) fn read(gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u
     copy
 }
 
+/// Bytes of the longest entry of a list, rounded up.
+const LONGEST_ENTRY: u64 = 256;
+
 /// A buffer with contents.
 pub(crate) fn buffer(
     gpu: &Gpu,
@@ -57,7 +60,8 @@ pub(crate) fn buffer(
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, GpuError> {
     let most = gpu.device.limits().max_storage_buffer_binding_size;
-    let bytes = (contents.len() as u64).max(16);
+    // A list without entries is as long as the longest entry: what is bound holds one.
+    let bytes = (contents.len() as u64).max(LONGEST_ENTRY);
     if bytes > most {
         return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
     }

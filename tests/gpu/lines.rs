@@ -75,6 +75,13 @@ fn lines_lie_at_their_depths() {
     }
 }
 
+/// A scene that can have lines, and whose frame has none.
+#[test]
+fn a_frame_may_have_no_line() {
+    let Some([double, _]) = differences_among(&scene("samples = 1", "[shading]\n"), |_| None) else { return };
+    assert!(double < 1e-9, "{double:e}");
+}
+
 /// Strokes of a scene inside its volume, from the camera of each frame.
 #[test]
 fn strokes_are_inside_every_frame() {
