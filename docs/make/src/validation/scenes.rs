@@ -22,7 +22,7 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("Phong, Sobel's gradient", "[shading]\n[sampling]\ngradient = \"sobel\"\n"),
     ("Phong, gradient by regression", "[shading]\n[sampling]\ngradient = \"regression\"\n"),
     ("Phong, and an iso-surface", "[shading]\n[surface]\niso = 136\n"),
-    ("over value and |g|", OVER_GRADIENT),
+    ("over value and gradient magnitude", OVER_GRADIENT),
     ("over value and a distance", OVER_DISTANCE),
 ];
 
