@@ -278,9 +278,8 @@ impl HaloPlanes {
                     run.set_pipeline(&self.start);
                     run.dispatch_workgroups(of_image[0], of_image[1], 1);
                 }
-                for at in at..end {
-                    let group = &self.groups[at];
-                    let record = |exponent: u32| ((firsts[at] + u64::from(exponent)) * stride) as u32;
+                for (group, first) in self.groups[at..end].iter().zip(&firsts[at..end]) {
+                    let record = |exponent: u32| ((first + u64::from(exponent)) * stride) as u32;
                     run.set_bind_group(2, &state, &[record(0)]);
                     run.set_pipeline(&self.visit);
                     run.dispatch_workgroups(of_image[0], of_image[1], 1);

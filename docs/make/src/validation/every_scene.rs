@@ -87,7 +87,7 @@ fn name_of(root: &Path, file: &Path) -> String {
 }
 
 /// What becomes of a scene; none if its data are not there.
-fn outcome(file: &PathBuf, gpu: &Gpu) -> Option<Outcome> {
+fn outcome(file: &Path, gpu: &Gpu) -> Option<Outcome> {
     let size = format!("[{}, {}]", SIZE[0], SIZE[1]);
     let scene = load(file, &[("picture.size", &*size)].into_iter().collect::<Overrides>()).ok()?;
     let job = Job::load(scene).ok()?;
