@@ -5,7 +5,7 @@ use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::validate::{Validation, validate};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Pixels across and down.
 const SIZE: [usize; 2] = [48, 36];
