@@ -261,7 +261,7 @@ fn a_picture_that_is_too_large() {
     let scene = parse(&format!("{large}[[halo]]\n"), "scene.toml".as_ref(), &Overrides::default()).unwrap();
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
     let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
-    assert!(failure.contains("the rays of a picture with halos takes 73728000000 bytes"), "{failure}");
+    assert!(failure.contains("the list of rays takes 73728000000 bytes"), "{failure}");
 }
 
 /// Frames of a camera that turns are those of a renderer of its own: other planes, the same images.

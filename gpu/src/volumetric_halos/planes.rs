@@ -166,13 +166,13 @@ impl HaloPlanes {
         let new = |what, numbers: u64, usage| empty(gpu, what, numbers.saturating_mul(precision.size()), usage);
         let image = || new("an image of halos", pixels.saturating_mul(4 * fours as u64), storage);
         let state = [
-            new("the rays of a picture with halos", rays.saturating_mul(6 + stages.kept_numbers() as u64), storage)?,
-            new("the rays of seeds", pixels.saturating_mul(2 + stages.seed_kept.len() as u64), storage)?,
+            new("the list of rays", rays.saturating_mul(6 + stages.kept_numbers() as u64), storage)?,
+            new("the list of rays that seed", pixels.saturating_mul(2 + stages.seed_kept.len() as u64), storage)?,
             image()?,
             image()?,
             image()?,
         ];
-        let tile_list = empty(gpu, "the tiles of halos", 4 * (size.tiles[0] as u64) * size.tiles[1] as u64, storage)?;
+        let tile_list = empty(gpu, "the list of tiles", 4 * (size.tiles[0] as u64) * size.tiles[1] as u64, storage)?;
         let [width, height] = shot.view.size;
         // Layouts and passes.
         let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
@@ -240,7 +240,7 @@ impl HaloPlanes {
         let group_list = buffer(gpu, "the groups of planes", &records, wgpu::BufferUsages::STORAGE)?;
         let tiles = self.size.tiles[0] * self.size.tiles[1];
         let flags = vec![0; 4 * (4 * tiles + self.groups.len())];
-        let flags = buffer(gpu, "the tiles of halos", &flags, wgpu::BufferUsages::STORAGE)?;
+        let flags = buffer(gpu, "the list of tiles", &flags, wgpu::BufferUsages::STORAGE)?;
         let [params, state] = gpu.attempt("the halos", || {
             let params_entries = [entry(0, canvas.params), entry(1, &canvas.picture.out)];
             let planes =

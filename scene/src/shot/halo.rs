@@ -335,6 +335,15 @@ mod tests {
         assert_eq!(halos(REGULAR).unwrap(), Halos { list: vec![], query: SampleQuery::VALUE });
     }
 
+    /// 8 + 4 + 2 + 1 rays of taps, one of the gradient and one more; with q = 2.5 each distance is rounded up.
+    #[test]
+    fn guard_bands_by_hand() {
+        assert_eq!([guard(4, 1.0, false), guard(4, 1.0, true), guard(0, 1.0, false)], [17, 18, 2]);
+        assert_eq!(guard(3, 2.5, false), 10 + 5 + 3 + 3 + 1);
+        assert_eq!([tap_distance(2.5, 2), tap_distance(0.5, 3)], [10.0, 8.0]);
+        assert_eq!([split_distance(2.25, 9), split_distance(9.5, 9)], [(2, 0.25), (9, 0.0)]);
+    }
+
     #[test]
     fn lengths_are_in_the_world_and_labels_are_ids() {
         let focus = "seed.focus = { at = [[1, 2, 3]], inner = 4, falloff = \"6 voxels\" }\n";
