@@ -32,7 +32,7 @@ pub(crate) fn shader(
 ) -> Result<(Shader, Scales), GpuError> {
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     if inputs.has_lines && !shot.halos.list.is_empty() {
-        return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.mode" });
+        return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);

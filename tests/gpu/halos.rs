@@ -176,6 +176,18 @@ fn halos_beside_other_effects() {
             "[[halo]]\nseed.by = \"curvature\"\n[sampling]\nkernel = \"bspline-smooth\"\ngradient = \"sobel\"\n",
         ),
         ("surface", "", "[[halo]]\n[[halo]]\nkind = \"emissive\"\n[surface]\niso = 132\n"),
+        (
+            "cut surface",
+            "",
+            "[[halo]]\n[[halo]]\nkind = \"emissive\"\n[surface]\niso = 132\nlook = \"toon\"\n\
+             [[clip]]\npoint = [15.3, 15.2, 15.1]\nnormal = [0.2, -1, 0.1]\nspace = \"index\"\ncap = \"#ff3010c0\"\n",
+        ),
+        (
+            "κ at a surface",
+            "layers = [\"beauty\", \"curvature.KV\", \"first.curvature.KV\"]",
+            "[[halo]]\n[surface]\niso = 132\nlook = \"phong\"\n",
+        ),
+        ("counts", "layers = [\"beauty\", \"counts\"]\nsamples = 1", "[[halo]]\nevery = 3\n"),
     ]);
 }
 

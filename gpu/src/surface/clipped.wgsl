@@ -21,9 +21,19 @@ fn find_surface(ray: Ray) {
     }
 }
 
-// From here on the ray's cut is that of the surface.
+// The cut of the ray's samples: its plane and its first sample.
+var<private> cut_of_samples: vec2<i32>;
+
+// While the surface is met the ray's cut is that of the surface.
 fn cut_surface(ray: Ray, seen: Front) -> Front {
+    cut_of_samples = vec2(cut_plane, cut_k);
     cut_plane = hit_plane;
     cut_k = last_before_surface();
+    return seen;
+}
+
+fn leave_surface(ray: Ray, seen: Front) -> Front {
+    cut_plane = cut_of_samples.x;
+    cut_k = cut_of_samples.y;
     return seen;
 }

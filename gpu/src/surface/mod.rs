@@ -65,6 +65,9 @@ pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has
     shader.stages.samples_left.push("end_at_surface");
     shader.stages.steps.push("share_before_surface");
     shader.stages.ends.push("meet_surface");
+    if !shot.clipping.planes.is_empty() {
+        shader.stages.ends.push("leave_surface");
+    }
 }
 
 /// Adds κ along the ray, before cuts are measured.

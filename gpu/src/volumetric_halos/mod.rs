@@ -273,6 +273,10 @@ fn add_stages(
     let seed_kept = kept.clone();
     if shot.surface.is_some() {
         kept.push(Kept::real("hit"));
+        kept.extend(clips.map(|_| Kept::whole("hit_plane")));
+    }
+    if stages.visited.contains(&"count_sample") {
+        kept.push(Kept::whole("samples_of_ray"));
     }
     if stages.collect.contains(&"collect_layers") {
         kept.extend(layers::KEPT.map(Kept::real));

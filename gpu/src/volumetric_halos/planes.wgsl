@@ -62,6 +62,7 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
                 sample.place = node_place(locate_value(sample.s));
             }
             if (shows) {
+                visited(sample);
                 own.front = composite_sample(ray, sample, own.tint, own.front);
             }
             if (has_step && k <= own.last) {

@@ -167,6 +167,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "keep_front",
     "last_before_surface",
     "leave_planes",
+    "leave_surface",
     "leaves_block",
     "line_from",
     "listed_pixel",
