@@ -256,7 +256,11 @@ pub(crate) fn point_test<'a>(
 /// No adapter, one that gives no device, or one without the unit that interpolates.
 pub fn open(interpolation: Interpolation) -> Result<Gpu, Failure> {
     let gpu = Gpu::new().and_then(|gpu| gpu.interpolating(interpolation));
-    gpu.map_err(|error| Failure::new(error.to_string(), "--backend", remedy(&error)))
+    let place = match interpolation {
+        Interpolation::Exact => "--backend gpu",
+        Interpolation::Fast => "--backend gpu-fast",
+    };
+    gpu.map_err(|error| Failure::new(error.to_string(), place, remedy(&error)))
 }
 
 /// Returns an error of the adapter with the scene's key, if one is at fault.

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 ///
 /// A knob is a scene key that trades accuracy for time, such as the step, the kernel or early termination. Knobs are
 /// changed one at a time. The error compares the pictures in linear light. Its truth is the formula of a phantom, else the
-/// knob's finest setting. The knob `backend` is there with a graphics card, and for a software adapter if it is named.
+/// knob's finest setting. The knob `backend` has graphics cards beside the reference, and is measured if it is named.
 /// Knobs of stipples compare blurred pages of dots. Knobs of hatching compare strokes, as distances
 /// in voxels.
 #[derive(Debug, Args)]

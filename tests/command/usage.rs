@@ -60,7 +60,7 @@ fn wrong_use_is_told_in_three_lines() {
         ),
         (
             "render --backend gpuu",
-            "error: invalid value 'gpuu' for '--backend <BACKEND>' [possible values: reference, gpu]\n  at: drypoint render\n  try: write gpu; `drypoint render --help` tells what there is\n",
+            "error: invalid value 'gpuu' for '--backend <BACKEND>' [possible values: reference, gpu, gpu-fast]\n  at: drypoint render\n  try: write gpu; `drypoint render --help` tells what there is\n",
         ),
         (
             "-q -v",
