@@ -138,7 +138,7 @@ struct Round {
 
 /// Seconds of a frame on the card.
 struct Times {
-    /// Of its rays, by the card's clock; by the host's where the card has none.
+    /// Seconds of its rays, by the card's clock; by the host's where the card has none.
     rays: f64,
     /// Until it is in a viewer's texture.
     shown: f64,

@@ -184,17 +184,8 @@ impl<'a> GpuFrames<'a> {
         let texture = match self.shown.take() {
             Some(texture) => texture,
             None => {
-                let [width, height] = self.job.scene.picture.size.map(|n| n as u32);
-                self.gpu.device().create_texture(&wgpu::TextureDescriptor {
-                    label: Some("viewer"),
-                    size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension: wgpu::TextureDimension::D2,
-                    format: wgpu::TextureFormat::Rgba16Float,
-                    usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC,
-                    view_formats: &[],
-                })
+                let texture = self.gpu.viewer_texture(self.job.scene.picture.size);
+                texture.map_err(|error| failure(&error, self.job))?
             }
         };
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -278,8 +269,9 @@ fn remedy(error: &GpuError) -> &'static str {
         GpuError::NoAdapter | GpuError::NoDevice { .. } => {
             "install a Vulkan driver (on Debian without a graphics card: mesa-vulkan-drivers), or leave --backend out"
         }
-        GpuError::TooLarge { .. } | GpuError::TooManyBytes { .. } | GpuError::OutOfMemory { .. } => {
-            "write volume.stride = 2, or leave --backend out: the CPU has more memory"
+        GpuError::TooLarge { .. } => "write volume.stride = 2, or leave --backend out: the CPU has more memory",
+        GpuError::TooManyBytes { .. } | GpuError::OutOfMemory { .. } => {
+            "write a smaller picture.size or volume.stride = 2, or leave --backend out: the CPU has more memory"
         }
         GpuError::Unfinished { .. } => "take fewer rays a pixel or a larger sampling.step, or leave --backend out",
         GpuError::NoFilter { .. } => "write --backend gpu: the shader interpolates then",

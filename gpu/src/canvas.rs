@@ -1,4 +1,4 @@
-//! What the passes of a frame draw on.
+//! The canvas that the passes of a frame draw on.
 
 use crate::block::Block;
 use crate::buffers::entry;

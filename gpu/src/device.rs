@@ -131,7 +131,7 @@ impl Gpu {
         self.device.features().contains(wgpu::Features::SHADER_F64)
     }
 
-    /// The same device, whose renderers interpolate between voxels by a unit.
+    /// Returns the device with another unit that interpolates between voxels, for renderers to come.
     ///
     /// # Errors
     /// A texture unit that does not interpolate f32.
@@ -141,6 +141,28 @@ impl Gpu {
             return Err(GpuError::NoFilter { adapter: self.name().to_owned() });
         }
         Ok(Self { interpolation, ..self.clone() })
+    }
+
+    /// Makes a texture for the frames of a viewer ([`Renderer::frame_into`](crate::Renderer::frame_into)).
+    ///
+    /// # Errors
+    /// A texture that is too large, or for which there is no memory.
+    pub fn viewer_texture(&self, [width, height]: [usize; 2]) -> Result<wgpu::Texture, GpuError> {
+        let size = wgpu::Extent3d { width: width as u32, height: height as u32, depth_or_array_layers: 1 };
+        self.attempt("a viewer's texture", || {
+            self.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("viewer"),
+                size,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format: wgpu::TextureFormat::Rgba16Float,
+                usage: wgpu::TextureUsages::STORAGE_BINDING
+                    | wgpu::TextureUsages::TEXTURE_BINDING
+                    | wgpu::TextureUsages::COPY_SRC,
+                view_formats: &[],
+            })
+        })
     }
 
     /// The unit that interpolates between voxels.

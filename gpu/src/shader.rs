@@ -87,7 +87,7 @@ pub(crate) struct Stages {
     /// Expressions for the channels of a pixel, in their order; `mean` is the beauty. Those of one ray stay when the pixel is
     /// refined.
     pub(crate) channels: Vec<Channel>,
-    /// Those of halos; none: there are none.
+    /// Stages of halos; none: the scene has no halo.
     pub(crate) halos: Option<volumetric_halos::Stages>,
 }
 

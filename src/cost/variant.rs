@@ -94,6 +94,10 @@ impl<'a> TimedVariant<'a> {
         }
         let (picture, own) = renderer.frame(&|_| ())?;
         counts.add(&own);
+        // A card that cannot show the picture is left out at once.
+        if self.card.is_some() {
+            renderer.show()?;
+        }
         let shared = |name: &str| ["volume", "mask", "labels", "picture"].contains(&name);
         let own: u64 = counts.bytes.iter().filter(|(name, _)| !shared(name)).map(|(_, bytes)| bytes).sum();
         if *kept + own <= KEPT {

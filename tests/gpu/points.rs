@@ -28,7 +28,7 @@ fn points(job: &Job, count: usize) -> Vec<SurfacePoint> {
     let point = |_| {
         let at = grid.to_world(anywhere(low, high));
         let normal = (at - grid.centre() + anywhere(DVec3::splat(-1.0), DVec3::splat(1.0))).normalize();
-        // As far as the other side of the volume's inside.
+        // Up to the other side of the volume's inside.
         let reach = anywhere(DVec3::ONE, DVec3::splat(12.0)).x * grid.voxel();
         SurfacePoint { at, normal, reach }
     };

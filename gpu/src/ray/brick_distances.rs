@@ -1,4 +1,4 @@
-//! How far bricks are from the next one that can show something.
+//! Distances of bricks to the next one that can show something.
 
 /// The largest distance that a byte holds.
 const FARTHEST: u8 = 255;

@@ -47,7 +47,7 @@ struct Kept {
     exit: i32,
 }
 
-// What planes leave of a part of a ray; nothing where start > end.
+// The part of a ray that planes leave; nothing where start > end.
 fn kept_of(ray: Ray, start: real, end: real) -> Kept {
     var kept = Kept(start, end, -1, -1);
     for (var i = 0; i < PLANES; i++) {

@@ -7,9 +7,9 @@ use drypoint_scene::shot::PhongParams;
 /// Colours under a light of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LitColors {
-    /// Those of samples of the volume.
+    /// Colours of samples of the volume.
     Samples,
-    /// That of an iso-surface.
+    /// The colour of an iso-surface.
     Surface,
 }
 

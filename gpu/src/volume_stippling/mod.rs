@@ -29,7 +29,7 @@ pub struct Hiding<'a> {
     pub volume: &'a drypoint_scene::volume::Volume,
     /// The facts of the volume.
     pub measured: &'a Measured,
-    /// How the field is reconstructed.
+    /// The reconstruction of the field.
     pub reconstruction: Reconstruction,
     /// The value of the surface.
     pub iso: f64,

@@ -25,9 +25,9 @@ const TILE_REACH: usize = 1;
 /// Rays across and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ImageSize {
-    /// Those of the picture.
+    /// Rays of the picture.
     pub(crate) rays: [usize; 2],
-    /// Those of the images, with the guard band.
+    /// Rays of the images, with the guard band.
     pub(crate) image: [usize; 2],
     /// Rays of the guard band on each side.
     pub(crate) guard: usize,

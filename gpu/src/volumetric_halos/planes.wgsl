@@ -36,7 +36,7 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
     forget_sample();
     for (var k = plane_group.first; k <= plane_group.last; k++) {
         if (!own.glows) {
-            // What lies before shows and seeds nothing.
+            // Samples before it show and seed nothing.
             k = max(k, min(own.next, next_seed));
             if (k > plane_group.last) {
                 break;
@@ -85,7 +85,7 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
             own.front = over_premultiplied(own.front, own.glow);
         }
         if (visits && !is_open(own.front)) {
-            // What lies in front hides all that follows.
+            // The front hides all that follows.
             own.next = NO_PLANE;
             own.glows = false;
         }

@@ -6,7 +6,7 @@ const SEED_KEPT = 2;
 
 @group(2) @binding(2) var<storage, read_write> seed_ray_numbers: array<real>;
 
-// What alpha_u asks of a sample, and alpha_u.
+// Measures the attributes of a sample that alpha_u depends on, and alpha_u.
 var<private> seed_known: Attributes;
 var<private> seed_alpha_u: real;
 
@@ -37,7 +37,7 @@ fn seed_tau(t_kappa: real) -> real {
 // (1 - |n.v|)^b, or clamp(1 - |n.v|/tau).
 fn seed_side(halo: i32, n_dot_v: real, kappa: real) -> real {
     if (halos[halo].by_curvature == 0.0) {
-        // Of unit vectors the product can be more than 1 by its rounding.
+        // The product of unit vectors can be more than 1 by its rounding.
         return seed_power(max(1.0 - n_dot_v, 0.0), halos[halo].side);
     }
     let tau = seed_tau(abs(kappa) * halos[halo].side);

@@ -5,12 +5,12 @@ use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::validate::{Validation, validate};
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Pixels across and down.
 const SIZE: [usize; 2] = [48, 36];
 
-/// What becomes of a scene.
+/// The outcome of a scene.
 enum Outcome {
     /// Its volume is not drawn.
     MarksAlone,
@@ -28,13 +28,8 @@ enum Outcome {
 /// The system's failure to read the folder of scenes, and a scene that fails.
 pub(super) fn section(gpu: &Gpu) -> Result<String, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
-    let mut files = vec![root.join("default.toml")];
-    for folder in std::fs::read_dir(&root).map_err(|error| error.to_string())?.flatten().map(|entry| entry.path()) {
-        let Ok(entries) = std::fs::read_dir(folder) else { continue };
-        files.extend(
-            entries.flatten().map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|e| e == "toml")),
-        );
-    }
+    let mut files = Vec::new();
+    scenes_below(&root, &mut files).map_err(|error| error.to_string())?;
     files.sort();
     let (mut marks, mut bounded, mut without, mut refused, mut absent) = (0, Vec::new(), Vec::new(), Vec::new(), 0);
     for file in files {
@@ -86,7 +81,7 @@ fn name_of(root: &Path, file: &Path) -> String {
     file.strip_prefix(root).unwrap_or(file).with_extension("").display().to_string().replace('\\', "/")
 }
 
-/// What becomes of a scene; none if its data are not there.
+/// Draws a scene and compares it; none if its data are not there.
 fn outcome(file: &Path, gpu: &Gpu) -> Option<Outcome> {
     let size = format!("[{}, {}]", SIZE[0], SIZE[1]);
     let scene = load(file, &[("picture.size", &*size)].into_iter().collect::<Overrides>()).ok()?;
@@ -99,4 +94,17 @@ fn outcome(file: &Path, gpu: &Gpu) -> Option<Outcome> {
         Ok(found) => Outcome::Same(found),
         Err(failure) => Outcome::Refused(failure.what),
     })
+}
+
+/// Lists the scenes of a folder and of those below it.
+fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) -> std::io::Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            scenes_below(&path, found)?;
+        } else if path.extension().is_some_and(|e| e == "toml") {
+            found.push(path);
+        }
+    }
+    Ok(())
 }

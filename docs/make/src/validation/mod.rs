@@ -92,7 +92,7 @@ const INTRODUCTION: &str = "<!-- Written by `cargo run --release -p drypoint-doc
 # Validation of graphics cards
 
 `drypoint render SCENE --backend gpu` draws a picture on a graphics card, in f32.
-`drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded, if a stage parts in f64, or if more than a tenth of the pixels have no bound.
+`drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded, if a stage parts in f64, or, where bounds are known, if more than a tenth of the pixels have none.
 Pixels of `samples = \"auto\"` are compared with one ray each.
 Both need a build with `--features gpu`.
 
@@ -119,11 +119,11 @@ const REST: &str = "
 
 `--backend gpu-fast` interpolates between voxels by the texture unit, where the kernel is trilinear; gradients by central differences, too.
 Hardware weighs voxels with 8 bits, so a value is off by up to 3·2⁻⁸ of the largest difference between neighbours, which a test holds it to. Software adapters filter in f32.
-All else is that of `--backend gpu`. No bound of a pixel is derived for it.
+Everything else is as with `--backend gpu`. No bound of a pixel is derived for it.
 
 ## Not drawn by graphics cards yet
 
 Lines inside a volume with halos. A scene that asks for them is refused, with the key that asks; the CPU draws it.
-A layer of counts has the samples that the card evaluates, which f32 and the skipping of bricks make other ones than the CPU's; a sample that lines split counts once.
-Bounds are known for colours over a transfer function that is not read from a table, without rays at edges and without halos; iso-surfaces have one of the trilinear kernel without clip planes, further volumes on the grid of the data.
+A layer of counts has the samples that the card evaluates, and they differ from the CPU's: f32 ends rays elsewhere, and other bricks are skipped. A sample that lines split counts once.
+Bounds are known for colours over a transfer function that is not read from a table, without rays at edges, halos or lines inside the volume; iso-surfaces have bounds with the trilinear kernel and no clip plane, further volumes on the grid of the data.
 ";
