@@ -6,7 +6,7 @@ const SEED_KEPT = 2;
 
 @group(2) @binding(2) var<storage, read_write> seed_ray_numbers: array<real>;
 
-// Measures the attributes of a sample that alpha_u depends on, and alpha_u.
+// The attributes of a sample that alpha_u depends on, and alpha_u itself.
 var<private> seed_known: Attributes;
 var<private> seed_alpha_u: real;
 
