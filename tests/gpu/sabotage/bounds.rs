@@ -10,7 +10,7 @@ fn with_fault(place: &str, fault: f64) -> [String; 2] {
     [place.replace('@', ""), place.replace('@', &format!(" * {fault}"))]
 }
 
-/// Faults of a thousandth and less: f32 has 6·10⁻⁸, and pixels of these scenes have bounds around 10⁻⁴.
+/// Relative faults of 0.05 % to 5 %: f32 rounds by 6·10⁻⁸, and pixels of these scenes have bounds around 10⁻⁴.
 #[test]
 fn bounds_notice_small_faults() {
     let Some(gpu) = gpu() else { return };
