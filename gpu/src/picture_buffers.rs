@@ -20,7 +20,7 @@ pub(crate) struct PictureBuffers {
 impl PictureBuffers {
     /// Buffers for as many of a picture's `height` rows as a shader can write.
     pub(crate) fn new(gpu: &Gpu, refines: bool, bytes_a_row: u64, height: usize) -> Result<Self, GpuError> {
-        // Of rows that are refined one more is drawn on either side.
+        // One more row is drawn on either side of those that are refined.
         let around = if refines { 2 } else { 0 };
         let most = gpu.device.limits().max_storage_buffer_binding_size;
         let fit = usize::try_from(most / bytes_a_row.max(1)).unwrap_or(usize::MAX);

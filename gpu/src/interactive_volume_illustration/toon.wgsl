@@ -32,7 +32,7 @@ fn toon(c_u: vec3<real>, n: vec3<real>, lit: Toon) -> vec3<real> {
     return c_u * vec3<real>(tones[found].r, tones[found].g, tones[found].b);
 }
 
-// What has no normal has the tone of N = v ([PREC-3]).
+// A sample without a normal has the tone of N = v ([PREC-3]).
 fn shaded_in_tones(ray: Ray, a: Attributes, shaded: Shaded, lit: Toon) -> Shaded {
     return Shaded(toon(shaded.rgb, select(ray.v, a.normal, a.has_normal), lit), shaded.alpha);
 }
