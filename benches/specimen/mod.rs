@@ -20,7 +20,7 @@ fov = 18
 step = "0.5 voxels"
 "##;
 
-pub const STYLES: &str = r##"
+pub(crate) const STYLES: &str = r##"
 [transfer]
 kind = "style"
 nodes = [
@@ -32,7 +32,7 @@ nodes = [
 ]
 "##;
 
-pub const COLOURS: &str = r##"
+pub(crate) const COLOURS: &str = r##"
 [transfer]
 kind = "regular"
 nodes = [
@@ -45,7 +45,7 @@ nodes = [
 "##;
 
 /// The scene with effects, with one ray a pixel or other `samples`.
-pub fn job(effects: &[&str], samples: &str) -> Job {
+pub(crate) fn job(effects: &[&str], samples: &str) -> Job {
     let text = format!("{SCENE}{}[picture]\nsamples = {samples}\n", effects.concat());
     let scene = parse(&text, Path::new("bench.toml"), &Overrides::default()).expect("the scene above");
     // The phantom takes longer than a frame: it is made once.
