@@ -2,8 +2,8 @@
 
 use super::preset::PRESETS;
 use super::{
-    Halo, Scene, VolumeSource, camera, clip, contours, halo, hatching, orbit, outlines, page, pen, picture, sampling,
-    shading, stipples, style_mipmaps, styles, surface, transfer, volume,
+    Halo, ObjectTable, Scene, VolumeSource, camera, clip, combine, contours, halo, hatching, intersection, object,
+    orbit, outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
 use crate::document::declare::keys;
@@ -51,9 +51,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
-        later("combine", "VS-3"),
-        later("object", "VS-2"),
-        later("intersection", "VS-4"),
         later("mesh", "VS-12"),
         later("box", "VS-8"),
         later("arrow", "VS-8"),
@@ -113,6 +110,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 |s| (!s.halos.is_empty()).then(|| s.halos.clone()),
                 |s, v| s.halos = v.into_iter().enumerate().map(|(i, halo): (usize, Halo)| halo.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
+            /// Operators by which objects are combined.
+            combine: key("VS-3", TableOf(&combine::TABLE)).absent("\"zadeh\", with objects");
+            /// Objects: selections with a look of their own, which can be moved and cut free.
+            object: key("VS-2", ListOf { what: "a list of objects", each: TableOf(&object::TABLE) },
+                |s| (!s.objects.is_empty()).then(|| s.objects.clone()),
+                |s, v| s.objects = v.into_iter().enumerate().map(|(i, o): (usize, ObjectTable)| o.named(i)).collect())
+                .absent("none").needs(&Quantity::ALL);
+            /// The look of places where a selection meets its ghost or the background.
+            intersection: key("VS-4", ListOf { what: "a list of intersections", each: TableOf(&intersection::TABLE) },
+                |s| (!s.intersections.is_empty()).then(|| s.intersections.clone()),
+                |s, v| s.intersections = v).absent("none");
             /// Stippling: dots on the volume's boundaries.
             stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
             /// Strokes along the lines of curvature of an iso-surface.

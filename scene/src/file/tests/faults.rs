@@ -26,12 +26,11 @@ fn a_part_that_is_not_built_says_so() {
          and would not ignore it"
     );
     for (rest, what) in [
-        ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
+        ("[[object]]\nstrokes = []\n", "object[0].strokes"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading]\ndivisor_floor = 0.1\n", "shading.divisor_floor"),
-        ("[[halo]]\nobject = \"tumour\"\n", "halo[0].object"),
     ] {
         let text = faults(rest);
         assert!(text.starts_with(&format!("{what} is not built yet\n")), "{text}");

@@ -19,7 +19,7 @@ use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
 use crate::quantity::Quantity;
 use crate::volume::Subset;
-use gradient_range::Quantile;
+pub(crate) use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
 use std::path::PathBuf;
