@@ -1,6 +1,7 @@
 //! The report of `info` about a volume file.
 
 use super::Volume;
+use super::bricked::{BrickCensus, SIDE};
 use super::histogram::{Histogram, quantiles};
 use crate::math;
 use serde::Serialize;
@@ -42,6 +43,8 @@ pub struct Info {
     pub intercept: f64,
     /// Bytes of the voxels in memory.
     pub bytes: usize,
+    /// The bricks of a selection volume with these voxels ([VS-1]).
+    pub bricks: BrickCensus,
     /// Counts of the finite values in 64 equal bins over their range.
     pub histogram: Histogram,
     /// Quantiles of the finite values, ascending ([VAL-2]).
@@ -75,6 +78,7 @@ impl Info {
             slope: volume.slope(),
             intercept: volume.intercept(),
             bytes: volume.voxels().bytes(),
+            bricks: BrickCensus::new(volume),
             histogram: Histogram::new(volume, BINS),
             percentiles: PERCENTS
                 .into_iter()
@@ -103,6 +107,8 @@ impl fmt::Display for Info {
         }
         writeln!(f, "range      {} … {}", short(self.range[0]), short(self.range[1]))?;
         writeln!(f, "invalid    {} (NaN or infinite)", self.invalid)?;
+        let BrickCensus { count, distinct, bytes } = self.bricks;
+        writeln!(f, "bricks     {count} of {SIDE}³ voxels, {distinct} distinct, {}", size(bytes))?;
         writeln!(f, "histogram  {}", bars(&self.histogram.bins))?;
         writeln!(f, "           log of the counts in {BINS} bins over the range")?;
         let percentiles: Vec<String> =
@@ -183,6 +189,7 @@ mod tests {
             "world      right-anterior-superior",
             "value      2 · stored + -1000",
             "range      -1000 … -988",
+            "bricks     1 of 16³ voxels, 1 distinct, 16.4 kB",
             "invalid    1 (NaN or infinite)",
         ] {
             assert!(text.lines().any(|l| l == line), "{line:?} in\n{text}");

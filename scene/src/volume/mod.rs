@@ -4,6 +4,7 @@
 #[macro_use]
 mod voxels;
 
+pub mod bricked;
 mod bricks;
 mod bytes;
 pub mod histogram;
@@ -14,12 +15,14 @@ pub mod parts;
 pub mod quantile;
 mod raw_layout;
 pub mod read;
+mod selection;
 mod subset;
 pub mod write;
 
 pub use bricks::{BRICK, BrickRow, Bricks};
 pub use mask::Mask;
 pub use raw_layout::RawLayout;
+pub use selection::Selection;
 pub use subset::{KeptVoxels, NotInVolume, Subset};
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
