@@ -58,6 +58,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("label", "VS-10"),
         later("conventions", "GPU-6"),
     ],
+    check: |_, check| {
+        if !check.has("volume") {
+            check.fault_in("volume", volume::no_volume());
+        }
+    },
     ..Table::new(
         "a scene",
         "A scene file is TOML. A table is an effect: what has no table does not exist for the picture and is not \
@@ -76,7 +81,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// Towards the light, for all that is lit; a table's own `light` wins.
             light: key("STF-11", shading::Light);
             /// The data that is seen.
-            volume: key("IO-1", TableOf(&volume::TABLE)).required();
+            volume: key("IO-1", TableOf(&volume::TABLE)).absent("the scene is a template, for any volume");
             /// Planes that cut parts of the volume away.
             clip: key("RAY-8", ListOf { what: "a list of clips", each: TableOf(&clip::TABLE) },
                 |s| (!s.clips.is_empty()).then(|| s.clips.clone()),

@@ -87,6 +87,13 @@ choices! {
     }
 }
 
+impl Unit {
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        Self::KIND.options.iter().find(|option| option.value == self).map_or("", |option| option.name)
+    }
+}
+
 choices! {
     /// How α_u and α_d become α ([STF-9]).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -170,7 +170,7 @@ fn files_are_found_beside_the_scene_then_in_the_listed_folders() {
     let look = |text: &str, settings: &[(&str, &str)]| {
         let mut check = Check::new(&file);
         let overrides: Overrides = settings.iter().copied().collect();
-        let mut scene = read(text, &overrides, &mut check).unwrap();
+        let mut scene = read(text, None, &overrides, &mut check).unwrap();
         find::files(&mut scene, &mut check, &[root.join("nowhere"), data.clone()]);
         finish(Some(scene), check)
     };
