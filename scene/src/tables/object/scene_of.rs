@@ -1,9 +1,11 @@
 //! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
 
-use crate::tables::{ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
+use crate::tables::{Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
+use serde::Serialize;
 
 /// A part of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// The selection, where M moves it; of an object that is not moved, where it is.
     Selection,
@@ -35,6 +37,7 @@ impl Scene {
             objects: Vec::new(),
             combine: None,
             intersections: Vec::new(),
+            halos: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,
@@ -45,21 +48,8 @@ impl Scene {
             Role::Selection => PartName::Selection(table.name.clone()),
             Role::Ghost => PartName::Ghost(table.name.clone()),
         };
-        scene.keep_for(&own);
+        scene.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(&own));
         scene
-    }
-
-    /// The scene of the background: without objects, and with the planes that cut it.
-    pub fn of_background(&self) -> Self {
-        let mut scene = Self { objects: Vec::new(), combine: None, intersections: Vec::new(), ..self.clone() };
-        scene.keep_for(&PartName::Background);
-        scene
-    }
-
-    /// Keeps the clip planes and the halos that act on a part.
-    fn keep_for(&mut self, part: &PartName) {
-        self.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(part));
-        self.halos.retain(|halo| halo.object.as_ref().is_none_or(|object| object == part));
     }
 
     /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
@@ -81,7 +71,10 @@ impl Scene {
 
     /// The table of an object's data.
     fn volume_of(&self, object: &ObjectTable) -> VolumeTable {
-        let Some(path) = &object.volume else { return self.volume.clone() };
+        let Some(path) = &object.volume else {
+            // The data are those of the picture, whose parts are kept and whose ids are shown already.
+            return VolumeTable { parts: None, ids: Ids::Values, ..self.volume.clone() };
+        };
         VolumeTable {
             labels: object.labels.clone(),
             label_names: object.label_names.clone(),
