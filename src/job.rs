@@ -43,12 +43,12 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
-use drypoint_scene::plan::{Pass, Plan, Quantity};
+use drypoint_scene::plan::{NodesPlan, Pass, Plan, Quantity};
 use drypoint_scene::shot::{Clipping, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
-use drypoint_scene::transfer::Function;
+use drypoint_scene::transfer::{Function, node_values};
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
@@ -260,6 +260,14 @@ impl Job {
     /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
         self.function.as_deref()
+    }
+
+    /// Returns the values of the nodes of the scene's function, where they are in another unit.
+    pub fn node_values(&self) -> Option<NodesPlan> {
+        let transfer = self.scene.transfer.as_ref()?;
+        let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
+        let values = node_values(transfer, range, &self.volume);
+        (!values.is_empty()).then(|| NodesPlan { unit: transfer.unit.name(), values })
     }
 
     /// Returns the scene's camera in numbers.

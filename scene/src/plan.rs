@@ -13,7 +13,7 @@ pub use crate::quantity::Quantity;
 pub(crate) use asks::{Asks, At, Idle};
 pub use ladder::Limit;
 pub(crate) use ladder::{Ladder, Settings};
-pub use need::{IdleKey, Need, PassNeed, Plan, PointsPlan, Samples};
+pub use need::{IdleKey, Need, NodesPlan, PassNeed, Plan, PointsPlan, Samples};
 pub use pass::Pass;
 pub use rules::halos_in_effect;
 
@@ -60,8 +60,8 @@ impl Plan {
         asks.close();
         asks.needs.sort_by_key(|need| need.quantity);
         asks.passes.sort_by_key(|need| need.pass);
-        let (idle_keys, points, warnings) = (Vec::new(), None, Vec::new());
-        let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys, points, warnings };
+        let (idle_keys, nodes, points, warnings) = (Vec::new(), None, None, Vec::new());
+        let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys, nodes, points, warnings };
         let mut idle = Idle { scene, at: At::default(), keys: Vec::new() };
         for (at, rules) in rules(scene) {
             idle.at = at;

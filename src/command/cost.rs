@@ -1,6 +1,6 @@
 //! The verb `cost`: accuracy against time.
 
-use super::input::{self, SceneOverrides, SetArgs};
+use super::input::{self, SceneOverrides, SetArgs, TemplateArgs};
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk, graphics, output_path};
 use clap::Args;
@@ -21,6 +21,8 @@ pub(super) struct CostArgs {
     /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Output file: .csv or .md for a table, .svg or .png for a plot of error against time; can be repeated
     /// [default: CSV on standard output]
     #[arg(short, long, value_name = "FILE")]
@@ -45,7 +47,8 @@ impl CostArgs {
             files.push((path, form));
         }
         // The scene, and a warning for each output file that it reads.
-        let over = SceneOverrides::new(&self.set, Vec::new())?;
+        let mut over = SceneOverrides::new(&self.set, Vec::new())?;
+        over.volume = self.template.volume;
         let job = {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?

@@ -20,6 +20,14 @@ pub(super) struct SetArgs {
     pub set: Vec<String>,
 }
 
+/// The volume behind a scene's name, for which the scene is drawn.
+#[derive(Clone, Debug, Default, clap::Args)]
+pub(super) struct TemplateArgs {
+    /// Volume to draw by the scene, in place of the scene's own; a scene without [volume] is a template and needs one
+    #[arg(value_name = "VOLUME")]
+    pub volume: Option<PathBuf>,
+}
+
 /// A flag that stands for a scene key.
 pub(super) struct KeyFlag {
     /// The key.
@@ -64,6 +72,8 @@ pub(super) struct SceneOverrides {
     flags: Vec<KeyFlag>,
     /// Whether only the layer `beauty` is rendered. Layers that nobody writes are not computed ([PLAN-1]).
     pub beauty_only: bool,
+    /// The volume to draw by the scene, in place of its own.
+    pub volume: Option<PathBuf>,
     /// Pixels of the picture's longer side, in place of the scene's.
     pub longer_side: Option<usize>,
     /// The part of the scene to draw.
@@ -171,6 +181,11 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
         scene
     };
     let found = |scene| VerbInput { scene: finished(scene), volume: None, counts: Counts::default() };
+    if let (Some(path), Some(volume)) = (path, &over.volume) {
+        check_pair(path, volume)?;
+        let scene = file::load_for(path, volume, &over.overrides);
+        return Ok(found(scene.map_err(|faults| over.failures(faults))?));
+    }
     let Some(path) = path else {
         let scene = file::parse(file::DEFAULT_SCENE, Path::new("the embedded scene"), &over.overrides);
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
@@ -192,6 +207,25 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
         VolumeSource::Phantom(_) => false,
     };
     Ok(VerbInput { scene, volume: same.then_some(volume), counts })
+}
+
+/// Checks that a scene stands in front, and behind it a volume's file that is there.
+fn check_pair(scene: &Path, volume: &Path) -> Result<(), Failures> {
+    let order = "write the scene, then the volume: drypoint render template.toml head.nrrd";
+    match (is_scene(scene), is_scene(volume)) {
+        (true, true) => {
+            let what = "a scene is drawn for a volume, and this is a second scene";
+            Err(Failure::new(what, volume.display(), order).into())
+        }
+        (false, true) => Err(Failure::new("the volume stands before its scene", volume.display(), order).into()),
+        (false, false) => {
+            let what = "a volume is drawn by a scene, and the file before this one is none";
+            Err(Failure::new(what, volume.display(), order).into())
+        }
+        // Whether a template says how raw voxels lie is known once it is read.
+        (true, false) if volume.is_file() => Ok(()),
+        (true, false) => Err(no_input(volume).into()),
+    }
 }
 
 /// Returns the scene without volume that `--set` and flags describe, over the defaults.

@@ -21,6 +21,8 @@ use std::time::Instant;
 pub(super) struct PageRequest {
     /// A scene, a volume or a list.
     pub input: PathBuf,
+    /// The volume to draw by a scene.
+    pub volume: Option<PathBuf>,
     /// Output file.
     pub output: PathBuf,
     /// Preset of a bare volume, if given.
@@ -88,6 +90,7 @@ impl PageRequest {
         }
         let mut over = SceneOverrides::new(&self.set, flags)?;
         over.target = self.target;
+        over.volume.clone_from(&self.volume);
         Ok(over)
     }
 
@@ -103,6 +106,10 @@ impl PageRequest {
                 let what = format!("a list of {noun} has no use for {flag}");
                 return Err(Failure::new(what, flag, "leave it out").into());
             }
+        }
+        if let Some(volume) = &self.volume {
+            let what = format!("a list of {noun} is drawn without a volume");
+            return Err(Failure::new(what, volume.display(), "leave it out").into());
         }
         output_path::picture(&self.output, &Format::PAGES)?;
         let (mut counts, start) = (Counts::default(), Instant::now());

@@ -1,6 +1,6 @@
 //! The verb `pick`: what is seen at a pixel, and where it is in the volume.
 
-use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs, TemplateArgs};
 use super::raw::RawArgs;
 use super::report::{Progress, print, print_json};
 use super::{Outcome, Talk};
@@ -27,6 +27,8 @@ pub(super) struct PickArgs {
     /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Column from the left and row from the top, both from 0; can be repeated. The ray goes through the pixel's centre
     #[arg(long = "pixel", value_name = "X,Y", required = true, value_parser = pixel)]
     pixels: Vec<[i64; 2]>,
@@ -49,6 +51,7 @@ impl PickArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
         over.beauty_only = true;
+        over.volume.clone_from(&self.template.volume);
         let _working = Progress::new(talk, "picking");
         let mut job = input::load(self.input.as_deref(), &over)?;
         let size = job.scene.picture.size;

@@ -1,6 +1,6 @@
 //! The verb `plan`: what a scene calls for, and why.
 
-use super::input::{self, SceneOverrides, SetArgs};
+use super::input::{self, SceneOverrides, SetArgs, TemplateArgs};
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
 use clap::Args;
@@ -15,6 +15,8 @@ pub(super) struct PlanArgs {
     /// Scene or volume [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Print the scene with every default written out, as a scene file. Paths are relative to the working directory
     #[arg(long)]
     full: bool,
@@ -32,7 +34,8 @@ impl PlanArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let flags = |preset: &String| input::preset_flags(preset, self.input.as_deref(), &self.set, false);
         let flags = self.preset.iter().flat_map(flags).collect();
-        let over = SceneOverrides::new(&self.set, flags)?;
+        let mut over = SceneOverrides::new(&self.set, flags)?;
+        over.volume = self.template.volume;
         let mut job = {
             let _loading = Progress::new(talk, "loading");
             input::load(self.input.as_deref(), &over)?
@@ -47,6 +50,7 @@ impl PlanArgs {
                 &json.map_err(|error| Failure::new(error, "transfer.over", "name volumes by paths that are text"))?,
             );
         }
+        job.plan.nodes = job.node_values();
         if !self.full && job.scene.stipples.is_some() {
             job.plan.points = Some(Stippling::planned(&job)?);
         }

@@ -1,6 +1,6 @@
 //! The verb `points`: a page of stipples.
 
-use super::input::SetArgs;
+use super::input::{SetArgs, TemplateArgs};
 use super::page::PageRequest;
 use super::raw::RawArgs;
 use super::{Outcome, Talk};
@@ -14,6 +14,8 @@ pub(super) struct PointsArgs {
     /// Scene (.toml) with [stipples]; volume, drawn 160 mm wide; or list of dots (.csv, .jsonl), whose page --set gives
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Output file. The suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines. With [orbit], ### in the name is the
     /// number of the frame; GIF, APNG and SVG can also hold all frames as an animation
     #[arg(short, long, value_name = "FILE")]
@@ -32,8 +34,9 @@ pub(super) struct PointsArgs {
 
 impl PointsArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let Self { input, output, preset, raw, set, stats } = self;
+        let Self { input, template, output, preset, raw, set, stats } = self;
         let (default_preset, target) = ("stipple", RenderTarget::Points);
-        PageRequest { input, output, preset, default_preset, raw, set, stats, target }.run(talk)
+        PageRequest { input, volume: template.volume, output, preset, default_preset, raw, set, stats, target }
+            .run(talk)
     }
 }

@@ -1,7 +1,7 @@
 //! The verb `render`: a picture.
 
 use super::frames::{self, DrawReport};
-use super::input::{self, KeyFlag, SceneOverrides, SetArgs};
+use super::input::{self, KeyFlag, SceneOverrides, SetArgs, TemplateArgs};
 use super::output_path::RenderOutput;
 use super::raw::RawArgs;
 use super::report::{note, print};
@@ -18,9 +18,11 @@ pub(super) struct RenderArgs {
     /// Scene (.toml) or volume (.nrrd, .nhdr, .nii, .nii.gz, .mhd, .mha, .raw) [default: the embedded scene]
     #[arg(value_name = "SCENE|VOLUME")]
     input: Option<PathBuf>,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Output file. The suffix chooses PNG, EXR, SVG or PDF; the last two draw dots and strokes as vectors over the picture.
     /// With [orbit], GIF and APNG hold all frames, and ### in the name is the number of the frame [default: the input's
-    /// name with .png, in the working directory]
+    /// name with .png, in the working directory; with a second argument the volume's name]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Width and height of the picture in pixels
@@ -66,8 +68,11 @@ impl RenderArgs {
             Backend::Reference => None,
             Backend::Gpu | Backend::GpuFast => Some(graphics::open(talk, self.backend == Backend::GpuFast)?),
         };
-        let target = RenderOutput::new(self.output.as_deref(), self.input.as_deref(), !self.layers.is_empty())?;
+        // A template draws many volumes, and each picture has the name of its own.
+        let named = self.template.volume.as_deref().or(self.input.as_deref());
+        let target = RenderOutput::new(self.output.as_deref(), named, !self.layers.is_empty())?;
         let mut over = SceneOverrides::new(&self.set, self.flags()?)?;
+        over.volume.clone_from(&self.template.volume);
         over.beauty_only = target.format != Format::Exr;
         let (input, files) = (self.input.as_deref(), |scene: &_| target.files(scene));
         let repeat = self.repeat.unwrap_or(1);

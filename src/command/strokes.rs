@@ -1,6 +1,6 @@
 //! The verb `strokes`: a page of hatching and outlines.
 
-use super::input::SetArgs;
+use super::input::{SetArgs, TemplateArgs};
 use super::page::PageRequest;
 use super::raw::RawArgs;
 use super::{Done, Outcome, Talk};
@@ -15,6 +15,8 @@ pub(super) struct StrokesArgs {
     /// Scene (.toml) with [hatching] or [outlines]; volume, drawn 160 mm wide; or list of strokes (.csv, .jsonl), whose page --set gives
     #[arg(value_name = "SCENE|VOLUME|LIST")]
     input: PathBuf,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Output file. The suffix chooses SVG, PDF, PNG, EXR, CSV or JSON lines. With [orbit], ### in the name is the
     /// number of the frame; GIF, APNG and SVG can also hold all frames as an animation
     #[arg(short, long, value_name = "FILE", required_unless_present = "seeds")]
@@ -37,11 +39,12 @@ pub(super) struct StrokesArgs {
 
 impl StrokesArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let Self { input, output, preset, seeds, raw, set, stats } = self;
+        let Self { input, template, output, preset, seeds, raw, set, stats } = self;
         let (default_preset, target) = ("hatch", RenderTarget::Strokes);
         let draws = output.is_some();
         let output = output.unwrap_or_default();
-        let page = PageRequest { input, output, preset, default_preset, raw, set, stats: stats && draws, target };
+        let (volume, drawn) = (template.volume, stats && draws);
+        let page = PageRequest { input, volume, output, preset, default_preset, raw, set, stats: drawn, target };
         if let Some(path) = seeds.as_ref().filter(|path| **path == page.output) {
             let what = "the seeds and the strokes go to one file";
             return Err(Failure::new(what, path.display(), "give --seeds another name").into());

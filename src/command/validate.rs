@@ -1,6 +1,6 @@
 //! The verb `validate`: a graphics card against the reference.
 
-use super::input::SetArgs;
+use super::input::{SetArgs, TemplateArgs};
 use super::raw::RawArgs;
 use super::{Outcome, Talk, graphics};
 use clap::Args;
@@ -13,6 +13,8 @@ pub(super) struct ValidateArgs {
     /// Scene (.toml) or volume
     #[arg(value_name = "SCENE|VOLUME")]
     input: PathBuf,
+    #[command(flatten)]
+    template: TemplateArgs,
     /// Write a picture of the difference (FLIP), as PNG
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -50,13 +52,14 @@ impl ValidateArgs {
 
         if let Some(path) = &self.output {
             output_path::picture(path, &[Format::Png])?;
-            output_path::check_not_read(path, [&*self.input])?;
+            output_path::check_not_read(path, std::iter::once(&*self.input).chain(self.template.volume.as_deref()))?;
         }
         let mut flags: Vec<_> = self.raw.flag().into_iter().collect();
         if let Some(size) = &self.size {
             flags.push(input::size_flag(size)?);
         }
-        let over = SceneOverrides::new(&self.set, flags)?;
+        let mut over = SceneOverrides::new(&self.set, flags)?;
+        over.volume = self.template.volume;
         let job = input::find(Some(&self.input), &over)?.load(over.target)?;
         let found = drypoint::validate::validate(&job, gpu)?;
         if let Some(path) = &self.output {

@@ -26,6 +26,7 @@ mod sheet;
 mod stats;
 mod strokes;
 mod styles;
+mod template;
 mod terminal;
 mod usage;
 mod wedge;

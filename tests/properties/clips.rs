@@ -6,7 +6,7 @@ use crate::common::{LAYERS, Shown, Stage, ball, orthographic, perspective};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{Clip, ClipSpace, ClipTarget, Contours, Kappa, Kernel, Length, Number, Transparency};
+use drypoint::scene::tables::{Clip, ClipSpace, Contours, Kappa, Kernel, Length, Number, PartName, Transparency};
 
 /// Adds one to three clips to a scene: planes through the volume, along its axes or oblique, and boxes about its middle.
 pub(super) fn clips(r: &mut Random, shot: &mut Stage) {
@@ -21,7 +21,7 @@ pub(super) fn clips(r: &mut Random, shot: &mut Stage) {
 fn clip(r: &mut Random, grid: &Grid) -> Clip {
     let mut clip = Clip {
         space: r.pick(&[ClipSpace::World, ClipSpace::Index]),
-        applies: r.pick(&[vec![], vec![ClipTarget::Background]]),
+        applies: r.pick(&[vec![], vec![PartName::Background]]),
         ..Clip::default()
     };
     let [lo, hi] = grid.index_box();

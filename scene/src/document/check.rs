@@ -74,6 +74,13 @@ impl Check {
         self.given.insert(self.path.clone(), place.clone());
     }
 
+    /// Forgets a table that was put into the document and that the scene did not say.
+    pub(crate) fn forget_chosen(&mut self, key: &str) {
+        if self.given.place(key) == Some(&Place::Chosen) {
+            self.given.remove(key);
+        }
+    }
+
     /// Returns the place of a key in the scene; the key is given from the top.
     pub(crate) fn place(&self, key: &str) -> Option<&Place> {
         self.given.place(key)

@@ -124,6 +124,10 @@ impl Given {
     pub(crate) fn insert(&mut self, key: String, place: Place) {
         self.keys.insert(key, place);
     }
+
+    pub(crate) fn remove(&mut self, key: &str) {
+        self.keys.remove(key);
+    }
 }
 
 /// A place and a key in one line: the second of an error.

@@ -20,7 +20,7 @@ fn write(page: &mut String, path: &str, section: &Section) {
     };
     page.push_str(&format!("\n## {title}\n\n{}\n\n", escaped(section.doc)));
     page.push_str("| key | value | default | what it does | can call for | rule |\n|---|---|---|---|---|---|\n");
-    section.keys.iter().for_each(|key| page.push_str(&row(key)));
+    section.keys.iter().for_each(|key| page.push_str(&row(path, key)));
     if let Some((doc, shape)) = &section.open {
         page.push_str(&format!("| *any name* | {} | | {} | | |\n", escaped(&shape.expected()), escaped(doc)));
     }
@@ -30,19 +30,28 @@ fn write(page: &mut String, path: &str, section: &Section) {
         page.push_str(&format!("\nNot built yet: {}.\n", names.join(", ")));
     }
     for key in &section.keys {
-        let path = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+        let inner = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
         if let Some(table) = key.shape.section() {
-            write(page, &path, &table);
+            if !is_of_the_top(path, &table) {
+                write(page, &inner, &table);
+            }
         } else if let Some(table) = key.shape.item_section() {
-            write(page, &format!("{path}[…]"), &table);
+            write(page, &format!("{inner}[…]"), &table);
         }
     }
 }
 
-fn row(key: &SectionKey) -> String {
+/// Whether a table inside the table at `outer` is described at the top, with the same keys.
+pub(crate) fn is_of_the_top(outer: &str, table: &Section) -> bool {
+    !outer.is_empty() && table.title.starts_with('[') && !table.title.contains('.')
+}
+
+fn row(path: &str, key: &SectionKey) -> String {
     let options = key.shape.options();
     let values = if !options.is_empty() {
         options.iter().map(|(name, doc)| format!("`{name:?}`: {}", escaped(doc))).collect::<Vec<_>>().join("<br>")
+    } else if let Some(table) = key.shape.section().filter(|table| is_of_the_top(path, table)) {
+        format!("as `{}`", table.title)
     } else if key.shape.section().is_some() || key.shape.item_section().is_some() {
         "below".into()
     } else {

@@ -17,6 +17,7 @@
 mod checks;
 mod embedded;
 mod find;
+mod template;
 #[cfg(test)]
 mod tests;
 
@@ -70,7 +71,7 @@ pub fn reference_markdown() -> String {
 /// Every fault of the text and of the overrides, with its place ([SCN-4]).
 pub fn parse(text: &str, file_name: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(file_name);
-    let scene = read(text, overrides, &mut check);
+    let scene = read(text, None, overrides, &mut check);
     finish(scene, check)
 }
 
@@ -80,10 +81,24 @@ pub fn parse(text: &str, file_name: &Path, overrides: &Overrides) -> Result<Scen
 /// A file that cannot be read, every fault of its text and of the overrides, and every file or folder that the scene
 /// names and that is not there.
 pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
+    load_over(path, None, overrides)
+}
+
+/// Reads a scene file for another volume than its own, or a template, which has none ([VS-11]). The volume's file takes
+/// the place of `volume.file` or `volume.phantom`. If the scene has one of them, its `raw`, `box` and `labels` go too;
+/// every other key stays.
+///
+/// # Errors
+/// Same errors as [`load`].
+pub fn load_for(path: &Path, volume: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
+    load_over(path, Some(volume), overrides)
+}
+
+fn load_over(path: &Path, volume: Option<&Path>, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(path);
     let scene = match memory::read_to_string(path) {
         Ok(text) => {
-            let mut scene = read(&text, overrides, &mut check);
+            let mut scene = read(&text, volume, overrides, &mut check);
             if let Some(scene) = &mut scene {
                 find::files(scene, &mut check, &data_folders());
             }
@@ -98,7 +113,7 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
 }
 
 /// Walks a text. The scene is whole only if the walk found no fault; until then it holds what passed.
-fn read(text: &str, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
+fn read(text: &str, volume: Option<&Path>, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
     let mut document = match Item::document(text) {
         Ok(document) => document,
         Err(faults) => {
@@ -108,8 +123,12 @@ fn read(text: &str, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
             return None;
         }
     };
+    let replaced = volume.map(|volume| template::Replaced::new(&mut document, volume));
     overrides.apply(&ROOT, &mut document, check);
     let mut scene = check.table(&ROOT, &document)?;
+    if let Some(replaced) = replaced {
+        replaced.finish(&mut scene, check);
+    }
     checks::check(&scene, check);
     if scene.transfer.is_none() && scene.surface.is_none() && !scene.has_marks() {
         // The preset `style`, for a scene that would draw nothing ([SCN-3]).

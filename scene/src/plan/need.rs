@@ -84,10 +84,21 @@ pub struct Plan {
     pub passes: Vec<PassNeed>,
     /// Keys without effect.
     pub idle_keys: Vec<IdleKey>,
+    /// The values of nodes in another unit than values, where they have been found.
+    pub nodes: Option<NodesPlan>,
     /// The points of stipples, where they have been counted.
     pub points: Option<PointsPlan>,
     /// Flaws that the picture may have.
     pub warnings: Vec<String>,
+}
+
+/// The values that a transfer function's nodes have in a volume ([VS-11]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodesPlan {
+    /// The name of the nodes' unit.
+    pub unit: &'static str,
+    /// The places of nodes in that unit, each with its value.
+    pub values: Vec<[f64; 2]>,
 }
 
 /// How many points stipples have, which takes a look at the volume.
@@ -211,6 +222,10 @@ impl fmt::Display for Plan {
         for [effect, needs, adds, because] in &rows {
             let [a, b, c, _] = width;
             writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;
+        }
+        if let Some(NodesPlan { unit, values }) = &self.nodes {
+            let lines = values.iter().map(|[at, value]| format!("  {at} is {value}"));
+            list(f, &format!("transfer.unit = {unit:?}"), lines)?;
         }
         if let Some(PointsPlan { voxels, each, bytes }) = self.points {
             let points = voxels.saturating_mul(each);

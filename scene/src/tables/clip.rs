@@ -1,6 +1,7 @@
 //! `[[clip]]`: planes that cut parts of the volume away ([RAY-8]).
 
 use super::nodes::StyleName;
+use super::object::{PartName, PartNames};
 use crate::color::Rgba;
 use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
@@ -24,7 +25,7 @@ pub struct Clip {
     /// The space of the coordinates.
     pub space: ClipSpace,
     /// The things that are cut; none: everything.
-    pub applies: Vec<ClipTarget>,
+    pub applies: Vec<PartName>,
     /// The colour of cuts, linear and straight; none: their own.
     pub cap: Option<Rgba>,
     /// The style of cuts, in place of a colour.
@@ -54,15 +55,6 @@ choices! {
         World = "world",
         /// The volume's index space: voxels, counted from 0.
         Index = "index",
-    }
-}
-
-choices! {
-    /// A thing that planes can cut.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum ClipTarget {
-        /// The volume of `[volume]`, with all that is drawn of it.
-        Background = "background",
     }
 }
 
@@ -102,7 +94,7 @@ pub(crate) static TABLE: Table<Clip> = Table {
             /// The space of `point`, `normal` and `box`. In index space the planes of a box follow the axes of the grid.
             space: key("RAY-8", ClipSpace::KIND);
             /// The things that are cut.
-            applies: key("RAY-8", ListOf { what: "a list of names", each: ClipTarget::KIND },
+            applies: key("RAY-8", ListOf { what: "a list of names", each: PartNames },
                 |c| (!c.applies.is_empty()).then(|| c.applies.clone()),
                 |c, v| c.applies = v).absent("everything");
             /// Colour that a cut shows, unlit. Its own opacity multiplies that of the sample.

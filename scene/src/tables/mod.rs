@@ -6,11 +6,14 @@
 
 pub mod camera;
 pub mod clip;
+pub mod combine;
 pub mod contours;
 pub mod halo;
 mod halo_presets;
 pub mod hatching;
+pub mod intersection;
 pub mod nodes;
+pub mod object;
 pub mod orbit;
 pub mod outlines;
 pub mod over;
@@ -31,11 +34,13 @@ pub mod toon;
 mod toon_presets;
 pub mod transfer;
 mod transfer_rules;
+mod unit_pairs;
 pub mod volume;
 
 pub use crate::length::Length;
 pub use camera::{Camera, Projection};
-pub use clip::{Clip, ClipSpace, ClipTarget};
+pub use clip::{Clip, ClipSpace};
+pub use combine::{Combine, Fuzzy};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use halo::{
     Exponents, FocusPoints, Halo, HaloAccumulation, HaloFocus, HaloKind, HaloSource, ProfileNode, SeedBy,
@@ -45,7 +50,9 @@ pub use hatching::{
     DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
     LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
 };
+pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable, Opposite};
 pub use nodes::{Row, RowAt, Stand};
+pub use object::{Cut, GhostTable, Motion, ObjectTable, PartName, Role, Rotation};
 pub use orbit::Orbit;
 pub use outlines::{Crease, Outlines};
 pub use over::{Axis, LabelKey, Over};

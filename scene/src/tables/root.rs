@@ -2,8 +2,8 @@
 
 use super::preset::PRESETS;
 use super::{
-    Halo, Scene, VolumeSource, camera, clip, contours, halo, hatching, orbit, outlines, page, pen, picture, sampling,
-    shading, stipples, style_mipmaps, styles, surface, transfer, volume,
+    Halo, ObjectTable, Scene, VolumeSource, camera, clip, combine, contours, halo, hatching, intersection, object,
+    orbit, outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
 use crate::document::declare::keys;
@@ -51,9 +51,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
-        later("combine", "VS-3"),
-        later("object", "VS-2"),
-        later("intersection", "VS-4"),
         later("mesh", "VS-12"),
         later("box", "VS-8"),
         later("arrow", "VS-8"),
@@ -61,6 +58,11 @@ pub(crate) static ROOT: Table<Scene> = Table {
         later("label", "VS-10"),
         later("conventions", "GPU-6"),
     ],
+    check: |_, check| {
+        if !check.has("volume") {
+            check.fault_in("volume", volume::no_volume());
+        }
+    },
     ..Table::new(
         "a scene",
         "A scene file is TOML. A table is an effect: what has no table does not exist for the picture and is not \
@@ -79,7 +81,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// Towards the light, for all that is lit; a table's own `light` wins.
             light: key("STF-11", shading::Light);
             /// The data that is seen.
-            volume: key("IO-1", TableOf(&volume::TABLE)).required();
+            volume: key("IO-1", TableOf(&volume::TABLE)).absent("the scene is a template, for any volume");
             /// Planes that cut parts of the volume away.
             clip: key("RAY-8", ListOf { what: "a list of clips", each: TableOf(&clip::TABLE) },
                 |s| (!s.clips.is_empty()).then(|| s.clips.clone()),
@@ -113,6 +115,17 @@ pub(crate) static ROOT: Table<Scene> = Table {
                 |s| (!s.halos.is_empty()).then(|| s.halos.clone()),
                 |s, v| s.halos = v.into_iter().enumerate().map(|(i, halo): (usize, Halo)| halo.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
+            /// Operators by which objects are combined.
+            combine: key("VS-3", TableOf(&combine::TABLE)).absent("\"zadeh\", with objects");
+            /// Objects: selections with a look of their own, which can be moved and cut free.
+            object: key("VS-2", ListOf { what: "a list of objects", each: TableOf(&object::TABLE) },
+                |s| (!s.objects.is_empty()).then(|| s.objects.clone()),
+                |s, v| s.objects = v.into_iter().enumerate().map(|(i, o): (usize, ObjectTable)| o.named(i)).collect())
+                .absent("none").needs(&Quantity::ALL);
+            /// The look of places where a selection meets its ghost or the background.
+            intersection: key("VS-4", ListOf { what: "a list of intersections", each: TableOf(&intersection::TABLE) },
+                |s| (!s.intersections.is_empty()).then(|| s.intersections.clone()),
+                |s, v| s.intersections = v).absent("none");
             /// Stippling: dots on the volume's boundaries.
             stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
             /// Strokes along the lines of curvature of an iso-surface.

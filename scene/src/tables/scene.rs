@@ -1,9 +1,9 @@
 //! The scene: all tables of a scene file ([SCN-1], [SCN-3]).
 
 use super::{
-    Axis, Background, Camera, Clip, Contours, Halo, Hatching, LightDirection, Orbit, Outlines, PageSettings,
-    PenSettings, PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook,
-    Transfer, TransferKind, VolumeSource, VolumeTable,
+    Background, Camera, Clip, Combine, Contours, Halo, Hatching, IntersectionTable, LightDirection, ObjectTable, Orbit,
+    Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, Styles, Surface,
+    SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use crate::document::Given;
 use std::path::{Path, PathBuf};
@@ -42,6 +42,12 @@ pub struct Scene {
     pub style_mipmaps: Option<StyleMipmaps>,
     /// Volumetric halos, in their order.
     pub halos: Vec<Halo>,
+    /// How objects are combined; none: by the paper's operators.
+    pub combine: Option<Combine>,
+    /// Selections with a look of their own, in their order.
+    pub objects: Vec<ObjectTable>,
+    /// The look of places where a selection meets something.
+    pub intersections: Vec<IntersectionTable>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
     /// Strokes along the lines of curvature of an iso-surface; none: none.
@@ -67,23 +73,17 @@ impl Scene {
             VolumeSource::Phantom(_) => None,
         };
         let labels = [&self.volume.labels, &self.volume.label_names].into_iter().flatten();
-        let axes = self.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
-        let further = axes.iter().filter_map(|axis| match axis {
-            Axis::Volume(path) => Some(path),
-            _ => None,
-        });
-        let theme = match &self.styles.theme {
-            StyleSource::Folder(folder) => Some(folder),
-            StyleSource::Embedded(_) => None,
-        };
-        let styles = self.styles.files.iter().map(|(_, file)| &file.path);
+        let further = self.transfer.iter().flat_map(Transfer::volumes);
+        let of_objects = self.objects.iter().flat_map(ObjectTable::files);
+        let of_intersections = self.intersections.iter().filter_map(IntersectionTable::picture);
         let background = match &self.picture.background {
             Background::Picture(path) => Some(path),
             Background::Color(_) | Background::None => None,
         };
         let tones = self.pens.iter().filter_map(|pen| pen.tone.as_ref());
-        let all = volume.into_iter().chain(labels).chain(further).chain(theme).chain(styles);
-        all.chain(background).chain(tones).map(PathBuf::as_path).collect()
+        let all = volume.into_iter().chain(labels).chain(further).chain(self.styles.paths());
+        let all = all.chain(of_objects).chain(of_intersections).chain(background).chain(tones);
+        all.map(PathBuf::as_path).collect()
     }
 
     /// Whether points or lines are drawn.
@@ -119,6 +119,9 @@ impl Scene {
             contours: None,
             style_mipmaps: None,
             halos: Vec::new(),
+            combine: None,
+            objects: Vec::new(),
+            intersections: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,

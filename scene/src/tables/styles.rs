@@ -42,6 +42,17 @@ impl Default for Styles {
     }
 }
 
+impl Styles {
+    /// The folder of the theme, and the files of single styles.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        let theme = match &self.theme {
+            StyleSource::Folder(folder) => Some(folder),
+            StyleSource::Embedded(_) => None,
+        };
+        theme.into_iter().chain(self.files.iter().map(|(_, file)| &file.path))
+    }
+}
+
 /// The themes that are part of the program.
 pub(crate) const THEMES: [&str; 3] = ["textbook", "naturalist", "studio"];
 

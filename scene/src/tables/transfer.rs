@@ -2,7 +2,7 @@
 
 pub use super::nodes::{Node, NodeColor};
 use super::nodes::{NodeList, Nodes, ROWS, Row};
-use super::over::{Over, OverKind};
+use super::over::{Axis, Over, OverKind};
 use super::transfer_rules as rules;
 use crate::document::check::Check;
 use crate::document::declare::{choices, table};
@@ -12,6 +12,7 @@ use crate::document::kind::Whole;
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
+use std::path::PathBuf;
 
 table! {
     /// The table `[transfer]`.
@@ -86,6 +87,13 @@ choices! {
     }
 }
 
+impl Unit {
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        Self::KIND.options.iter().find(|option| option.value == self).map_or("", |option| option.name)
+    }
+}
+
 choices! {
     /// How α_u and α_d become α ([STF-9]).
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -137,6 +145,11 @@ impl Transfer {
     /// Whether the function is left to be found from the data.
     pub fn is_automatic(&self) -> bool {
         self.nodes.is_none() && self.rows.is_none()
+    }
+
+    /// The files of the further volumes that the function is over.
+    pub(crate) fn volumes(&self) -> impl Iterator<Item = &PathBuf> {
+        self.over.axes().iter().filter_map(|axis| if let Axis::Volume(path) = axis { Some(path) } else { None })
     }
 
     /// Every node, row by row.

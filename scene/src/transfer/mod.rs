@@ -250,16 +250,46 @@ pub fn can_be_above_zero(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounde
     opacity.get(first..=last).is_some_and(|between| between.iter().any(|&a| a > 0.0))
 }
 
+/// The places of a transfer function's nodes in its unit, each with the value of the volume that it stands for
+/// ([VS-11]): in ascending order, each once. None in the unit of values, and for a function without nodes over the
+/// value.
+pub fn node_values(transfer: &Transfer, range: [f64; 2], volume: &Volume) -> Vec<[f64; 2]> {
+    let mut at: Vec<f64> = match (transfer.unit, transfer.over.axes()) {
+        (Unit::Value, _) => Vec::new(),
+        (_, [Axis::Value, ..]) => transfer.all_nodes().map(|node| node.at).collect(),
+        (_, [_, Axis::Value]) => {
+            let stands = transfer.rows.iter().flatten().flat_map(|row| row.at.each());
+            stands.filter_map(|stand| if let Stand::Number(at) = stand { Some(at) } else { None }).collect()
+        }
+        _ => Vec::new(),
+    };
+    at.sort_by(f64::total_cmp);
+    at.dedup();
+    let values = values(at.clone(), transfer.unit, range, volume);
+    at.into_iter().zip(values).map(|(at, value)| [at, value]).collect()
+}
+
 /// The values of numbers in a unit.
-fn values(at: Vec<f64>, unit: Unit, [lo, hi]: [f64; 2], volume: &Volume) -> Vec<f64> {
+fn values(at: Vec<f64>, unit: Unit, range: [f64; 2], volume: &Volume) -> Vec<f64> {
     match unit {
         Unit::Value => at,
-        Unit::Normalized => at.iter().map(|n| lo + n * (hi - lo)).collect(),
+        Unit::Normalized => at.iter().map(|&n| from_normalized(n, range)).collect(),
         Unit::Percentile => {
             let shares: Vec<f64> = at.iter().map(|n| n / 100.0).collect();
             quantiles(volume, &shares)
         }
     }
+}
+
+/// The value that `normalized` maps to n ([VAL-1]): lo at 0 and hi at 1, both exactly, and in the order of n.
+fn from_normalized(n: f64, [lo, hi]: [f64; 2]) -> f64 {
+    if n == 1.0 {
+        return hi;
+    }
+    // Halves do not overflow, and halving is exact. The sum may round to the wrong side of hi.
+    let value = 2.0 * (lo / 2.0 + n * (hi / 2.0 - lo / 2.0));
+    let value = if n < 1.0 { value.min(hi) } else { value.max(hi) };
+    value.clamp(f64::MIN, f64::MAX)
 }
 
 #[cfg(test)]
@@ -337,6 +367,66 @@ mod tests {
         assert_eq!(normalized, (vec![10.0, 50.0], vec![0.5, 1.0]));
         assert_eq!(at([Axis::K1, Axis::Value], Unit::Normalized), (vec![0.0, 1.0], vec![30.0, 50.0]));
         assert_eq!(at([Axis::K1, Axis::Value], Unit::Percentile), (vec![0.0, 1.0], vec![10.0, 10.0]));
+    }
+
+    #[test]
+    fn normalized_ends_are_the_range() {
+        let mut off = 0;
+        for i in 1..1000 {
+            let [lo, hi] = [f64::from(i) * 0.1, f64::from(i) * 0.3 + 7.7];
+            off += usize::from(lo + (hi - lo) != hi);
+            let at = |n| from_normalized(n, [lo, hi]);
+            assert_eq!([at(0.0), at(1.0)], [lo, hi], "{lo} {hi}");
+            // Rounding turns no two nodes around at the end.
+            assert!(at(1f64.next_down()) <= hi && hi <= at(1f64.next_up()), "{lo} {hi}");
+            // Elsewhere the formula as it is printed.
+            for n in [-0.5, 0.25, 1.0 / 3.0, 0.7, 2.0] {
+                assert_eq!(at(n), lo + n * (hi - lo), "{n} {lo} {hi}");
+            }
+        }
+        assert!(off > 100, "without the ends {off} of 999 ranges would end elsewhere");
+        // A range whose length is no number.
+        let widest = [f64::MIN, f64::MAX];
+        assert_eq!([0.0, 0.5, 1.0, 2.0].map(|n| from_normalized(n, widest)), [f64::MIN, 0.0, f64::MAX, f64::MAX]);
+        assert_eq!(from_normalized(0.25, [3.0, 3.0]), 3.0);
+    }
+
+    /// A ramp of the values 0 to 999, stored in another order: the percentile p is the ⌈10p⌉-th, 10p − 1.
+    #[test]
+    fn percentiles_of_a_ramp_are_its_closed_form() {
+        let ramp = |i: usize| (i * 7 + 13) % 1000;
+        let grid = Grid::with_spacing([10, 10, 10], [1.0; 3]).unwrap();
+        let voxels = Voxels::U16((0..1000).map(|i| ramp(i) as u16).collect());
+        let volume = Volume::new(grid, voxels, -2.0, 5.0).unwrap();
+        let at = [0.0, 0.1, 7.0, 12.34, 50.0, 99.9, 100.0];
+        let node = |&at: &f64| Node { at, color: NodeColor::Color([1.0; 3]), opacity: 1.0 };
+        let nodes = Some(at.iter().map(node).collect());
+        let transfer = Transfer { unit: Unit::Percentile, nodes, ..Transfer::automatic(TransferKind::Regular) };
+        let function = Function::new(&transfer, [0.0, 1.0], &volume, &|_| None).unwrap().unwrap();
+        // The slope −2 turns the order over: 999 comes first.
+        let value = |p: f64| -2.0 * (999.0 - ((10.0 * p).ceil() - 1.0).max(0.0)) + 5.0;
+        assert_eq!(function.nodes().0, at.map(value));
+        assert_eq!(node_values(&transfer, [0.0, 1.0], &volume), at.map(|p| [p, value(p)]));
+    }
+
+    #[test]
+    fn values_of_nodes_are_told_once_each_and_over_the_value_alone() {
+        let grid = Grid::with_spacing([5, 1, 1], [1.0; 3]).unwrap();
+        let volume = Volume::new(grid, Voxels::U8(vec![10, 20, 30, 40, 50]), 1.0, 0.0).unwrap();
+        let row = |at: f64, nodes: &[f64]| Row {
+            at: RowAt::Number(at),
+            nodes: nodes.iter().map(|&at| Node { at, color: NodeColor::Color([0.0; 3]), opacity: 1.0 }).collect(),
+        };
+        let rows = Some(vec![row(0.0, &[0.5, 0.0]), row(1.0, &[0.5, 1.0])]);
+        let of = |over, unit| {
+            let transfer = Transfer { over, unit, rows: rows.clone(), ..Transfer::automatic(TransferKind::Regular) };
+            node_values(&transfer, [10.0, 50.0], &volume)
+        };
+        let along = Over::Two([Axis::Value, Axis::Label]);
+        assert_eq!(of(along.clone(), Unit::Normalized), [[0.0, 10.0], [0.5, 30.0], [1.0, 50.0]]);
+        assert_eq!(of(Over::Two([Axis::K1, Axis::Value]), Unit::Normalized), [[0.0, 10.0], [1.0, 50.0]]);
+        assert_eq!(of(along, Unit::Value), [[0.0; 2]; 0]);
+        assert_eq!(of(Over::Two([Axis::K1, Axis::K2]), Unit::Normalized), [[0.0; 2]; 0]);
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! Checks that need several tables of a scene.
 
 mod halos;
+mod objects;
 
 use crate::document::Problem;
 use crate::document::check::Check;
 use crate::nearest::nearest;
 use crate::style::Theme;
-use crate::tables::{Axis, DotColor, LabelKey, Over, PenSettings, Scene, Stand};
+use crate::tables::{Axis, DotColor, LabelKey, Over, PenSettings, Scene, Stand, Styles};
+use std::borrow::Cow;
 
 /// Reports every contradiction between tables, and every name that nothing has.
 pub(super) fn check(scene: &Scene, check: &mut Check) {
@@ -15,26 +17,44 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     labels(scene, check);
     colors(scene, check);
     halos::check(scene, check);
+    objects::check(scene, check);
 }
 
 /// Every style that a node names must be one that the theme or a file provides. A folder of pictures that cannot be
 /// listed is left to whoever opens it.
 fn styles(scene: &Scene, check: &mut Check) {
-    if !check.sound(&["styles"]) {
+    if !check.sound(&["styles", "object"]) {
         return;
     }
-    let Ok(theme) = Theme::open(&scene.styles.theme) else { return };
-    let mut known: Vec<String> = theme.names().map(Into::into).collect();
-    known.extend(scene.styles.files.iter().map(|(name, _)| name.clone()));
-    known.sort();
-    known.dedup();
     for (name, key, place) in check.take_styles() {
+        let Some(known) = known_styles(&styles_at(scene, &key, check)) else { continue };
         if !known.contains(&name) {
             let nearest = nearest(&name, known.iter().map(String::as_str)).map(Into::into);
             let problem = Problem::Reference { what: "style".into(), name, nearest, known: known.clone() };
             check.fault_of(key, &place, problem);
         }
     }
+}
+
+/// The styles that a key can name: those of the part that it is about, or else the picture's.
+fn styles_at<'a>(scene: &'a Scene, key: &str, check: &Check) -> Cow<'a, Styles> {
+    let inside = key.strip_prefix("object[").and_then(|rest| rest.split_once("]."));
+    match inside.and_then(|(i, key)| Some((i.parse::<usize>().ok()?, key))) {
+        Some((i, key)) if i < scene.objects.len() => {
+            Cow::Owned(scene.styles_of(i, key.starts_with("ghost"), &|key| check.place(key).is_some()))
+        }
+        _ => Cow::Borrowed(&scene.styles),
+    }
+}
+
+/// The names of all styles, in order; none if the theme cannot be listed.
+fn known_styles(styles: &Styles) -> Option<Vec<String>> {
+    let theme = Theme::open(&styles.theme).ok()?;
+    let mut known: Vec<String> = theme.names().map(Into::into).collect();
+    known.extend(styles.files.iter().map(|(name, _)| name.clone()));
+    known.sort();
+    known.dedup();
+    Some(known)
 }
 
 /// A pen is called by its name, so that no two may share one.

@@ -1,7 +1,7 @@
 //! Clips ([RAY-8]): what is read, written and refused.
 
 use super::*;
-use crate::tables::{Clip, ClipSpace, ClipTarget};
+use crate::tables::{Clip, ClipSpace, PartName};
 use glam::DVec3;
 
 const PLANE: &str = "[[clip]]\npoint = [1, 2, 3]\nnormal = [0, 0, -2]\n";
@@ -17,7 +17,7 @@ fn planes_and_boxes_are_read_and_written() {
         point: Some(DVec3::new(1.0, 2.0, 3.0)),
         normal: Some(DVec3::new(0.0, 0.0, -2.0)),
         space: ClipSpace::Index,
-        applies: vec![ClipTarget::Background],
+        applies: vec![PartName::Background],
         cap: Some([1.0, 0.0, 0.0, 128.0 / 255.0]),
         ..Clip::default()
     };
@@ -77,7 +77,7 @@ fn wrong_clips_say_what_is_wrong() {
         ),
         (
             "box = [[0, 1], [0, 1], [0, 1]]\napplies = [\"liver\"]\n",
-            "clip[0].applies[0] cannot be \"liver\"\n  at scene.toml:6:12, key clip[0].applies[0]\n  write \"background\"",
+            "there is no part \"liver\"\n  at scene.toml:6:12, key clip[0].applies[0]\n  there is background",
         ),
         (
             "box = [[0, 1], [0, 1], [0, 1]]\ncap = \"red\"\nstyle = \"wax\"\n",

@@ -17,6 +17,11 @@ const GLOW: (&str, &str) = ("halo", "[{ kind = \"emissive\" }, { kind = \"emissi
 const FOCUS: (&str, &str) = ("halo", "[{ seed = { focus = { at = [[1, 2, 3]] } } }]");
 const CLIP: (&str, &str) = ("clip", "[{ point = [1, 2, 3], normal = [0, 0, 1] }]");
 const BOX: (&str, &str) = ("clip", "[{ box = [[0, 9], [0, 9], [0, 9]] }]");
+const OBJECT: (&str, &str) = ("object", "[{ cut = \"bounds\" }]");
+const OWN: (&str, &str) = ("object", "[{ volume = \"pet.nrrd\" }]");
+const TURNED: (&str, &str) = ("object", "[{ rotate = { angle = 10 } }]");
+const TWO: (&str, &str) = ("object", "[{ name = \"a\" }, { name = \"b\" }]");
+const MEETING: (&str, &str) = ("intersection", "[{ object = \"a\" }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
@@ -187,6 +192,46 @@ const SAMPLES: &[Sample] = &[
     ("halo[0].every", &[HALO], "8"),
     ("halo[0].accumulate", &[HALO], "mean"),
     ("halo[0].tints", &[GLOW], "[\"glow\"]"),
+    ("combine", &[], "{}"),
+    ("combine.fuzzy", &[], "product"),
+    ("object", &[], "[{}]"),
+    ("object[0].name", &[OBJECT], "tumour"),
+    ("object[0].volume", &[OBJECT], "pet.nrrd"),
+    ("object[0].labels", &[OWN], "l.nrrd"),
+    ("object[0].label_names", &[OWN], "l.csv"),
+    ("object[0].range", &[OWN], "[1, 9]"),
+    ("object[0].gradient_range", &[OWN], "max"),
+    ("object[0].outside", &[OWN], "high"),
+    ("object[0].selection", &[OBJECT], "tumour.nrrd"),
+    ("object[0].label", &[OBJECT, ("volume.labels", "l.nrrd")], "[1, 2]"),
+    ("object[0].value", &[OBJECT], "[[1, 0], [2, 1]]"),
+    ("object[0].move", &[OBJECT], "[0, 0, 40]"),
+    ("object[0].scale", &[OBJECT], "[1, 1, -2]"),
+    ("object[0].rotate", &[OBJECT], "{ angle = 30 }"),
+    ("object[0].rotate.axis", &[TURNED], "[1, 0, 0]"),
+    ("object[0].rotate.angle", &[TURNED], "45"),
+    ("object[0].center", &[OBJECT], "[1, 2, 3]"),
+    ("object[0].matrix", &[OBJECT], "[[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"),
+    ("object[0].ghosting", &[OBJECT], "0.8"),
+    ("object[0].ghosting_of_ghost", &[OBJECT], "0.8"),
+    ("object[0].cut", &[OBJECT], "object"),
+    ("object[0].funnel", &[OBJECT], "12 px"),
+    ("object[0].active", &[OBJECT], "true"),
+    ("object[0].highlight", &[OBJECT], "true"),
+    ("object[0].transfer", &[OBJECT], "{}"),
+    ("object[0].styles", &[OBJECT], "{ theme = \"studio\" }"),
+    ("object[0].shading", &[OBJECT], "{}"),
+    ("object[0].ghost", &[OBJECT], "{}"),
+    ("object[0].ghost.transfer", &[OBJECT], "{}"),
+    ("object[0].ghost.styles", &[OBJECT], "{ theme = \"studio\" }"),
+    ("object[0].ghost.shading", &[OBJECT], "{}"),
+    ("intersection", &[OBJECT], "[{ object = \"object 0\" }]"),
+    ("intersection[0].object", &[TWO, MEETING], "b"),
+    ("intersection[0].with", &[TWO, MEETING], "background"),
+    ("intersection[0].color", &[TWO, MEETING], "#ff000080"),
+    ("intersection[0].opacity", &[TWO, MEETING], "xor"),
+    ("intersection[0].swap", &[TWO, MEETING], "true"),
+    ("halo[0].object", &[HALO], "background"),
     ("stipples", &[], "{}"),
     ("stipples.threshold", &[STIPPLES], "q0.9"),
     ("stipples.k_max", &[STIPPLES], "2.5"),

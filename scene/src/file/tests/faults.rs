@@ -26,12 +26,11 @@ fn a_part_that_is_not_built_says_so() {
          and would not ignore it"
     );
     for (rest, what) in [
-        ("[[object]]\nname = \"a\"\n[object.transfer]\n", "[[object]]"),
+        ("[[object]]\nstrokes = []\n", "object[0].strokes"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
         ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
         ("[shading]\ndivisor_floor = 0.1\n", "shading.divisor_floor"),
-        ("[[halo]]\nobject = \"tumour\"\n", "halo[0].object"),
     ] {
         let text = faults(rest);
         assert!(text.starts_with(&format!("{what} is not built yet\n")), "{text}");
@@ -195,15 +194,14 @@ fn what_must_be_there() {
     assert_eq!(
         text(""),
         "drypoint is missing\n  at s.toml:1:1, key drypoint\n  write drypoint = 1, the version of the format that this \
-         program reads\nvolume is missing\n  at s.toml:1:1, key volume\n  write [volume], a table with the keys file, \
-         phantom, raw, ids, labels, label_names, label_lookup, range, gradient_range, outside, box, \
-         stride, parts"
+         program reads\nthe scene is a template: it names no volume\n  at s.toml:1:1, key volume\n  name a volume after \
+         the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
     );
     assert_eq!(
         text("drypoint = 2\n[volume]\n"),
         "drypoint cannot be 2\n  at s.toml:1:12, key drypoint\n  write 1, the version of the format that this program \
-         reads\nvolume.file is missing\n  at s.toml:2:2, key volume.file\n  write file = \"…\", or phantom = { name = \
-         \"…\" }"
+         reads\nthe scene is a template: it names no volume\n  at s.toml:2:2, key volume.file\n  name a volume after \
+         the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
     );
     assert_eq!(
         faults("[transfer]\nnodes = [{ style = \"wax\" }, { at = 3 }]\n"),

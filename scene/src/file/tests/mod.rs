@@ -11,6 +11,7 @@ mod schema;
 
 use super::*;
 use crate::document::describe::{Section, SectionKey};
+use crate::document::reference::is_of_the_top;
 
 /// A scene file's first lines.
 const HEAD: &str = "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n";
@@ -31,18 +32,18 @@ fn faults(rest: &str) -> String {
     }
 }
 
-/// Every key of every table with its path from the top; `[0]` stands for any item of a list of tables.
+/// Every key of every table with its path from the top, of tables inside others that are described at the top only there; `[0]` stands for any item of a list of tables.
 fn every_key() -> Vec<(String, SectionKey)> {
     fn walk(path: &str, section: Section, all: &mut Vec<(String, SectionKey)>) {
         for key in section.keys {
-            let path = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
-            if let Some(table) = key.shape.section() {
-                walk(&path, table, all);
+            let inner = if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+            if let Some(table) = key.shape.section().filter(|table| !is_of_the_top(path, table)) {
+                walk(&inner, table, all);
             }
             if let Some(table) = key.shape.item_section() {
-                walk(&format!("{path}[0]"), table, all);
+                walk(&format!("{inner}[0]"), table, all);
             }
-            all.push((path, key));
+            all.push((inner, key));
         }
     }
     let mut all = Vec::new();

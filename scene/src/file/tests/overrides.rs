@@ -105,7 +105,7 @@ fn faults_of_overrides_name_them() {
         (
             ("contour", "off"),
             "a scene has no key \"contour\"\n  at --set contour=off, key contour\n  write \"contours\"; the keys here are \
-             drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, stipples, hatching, outlines, surface",
+             drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, combine, object, intersection, stipples, hatching, outlines, surface",
         ),
         (
             ("contours.thicknes", "off"),
@@ -170,7 +170,7 @@ fn files_are_found_beside_the_scene_then_in_the_listed_folders() {
     let look = |text: &str, settings: &[(&str, &str)]| {
         let mut check = Check::new(&file);
         let overrides: Overrides = settings.iter().copied().collect();
-        let mut scene = read(text, &overrides, &mut check).unwrap();
+        let mut scene = read(text, None, &overrides, &mut check).unwrap();
         find::files(&mut scene, &mut check, &[root.join("nowhere"), data.clone()]);
         finish(Some(scene), check)
     };

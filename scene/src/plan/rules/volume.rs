@@ -31,15 +31,23 @@ pub(super) const RULES: Rules = Rules {
         if !stippled && scene.transfer.as_ref().is_some_and(|transfer| transfer.unit != Unit::Normalized) {
             idle.key("volume.range", "only transfer.unit = \"normalized\" is measured in it");
         }
+        // Keys of a scene's own volume, in whose place another one stands.
+        let other = "it describes the volume that the scene names, and another one is drawn";
+        if scene.volume.subset.ranges.is_none() {
+            idle.key("volume.box", other);
+        }
+        if matches!(scene.volume.source, VolumeSource::File { raw: None, .. }) {
+            idle.key("volume.raw", other);
+        }
         let why = match scene.volume.labels {
             Some(_) if plan.reads_labels() => None,
             Some(_) => Some("nothing reads a label"),
             None => Some("volume.labels names no label volume"),
         };
         if let Some(why) = why {
-            for key in ["volume.labels", "volume.label_names", "volume.label_lookup"] {
-                idle.key(key, why);
-            }
+            idle.key("volume.labels", if scene.volume.labels.is_some() { why } else { other });
+            idle.key("volume.label_names", why);
+            idle.key("volume.label_lookup", why);
         }
         if !stippled && !plan.needs_anywhere(Quantity::GradientMagnitudeRange) {
             idle.key("volume.gradient_range", "nothing reads |g|");

@@ -2,7 +2,6 @@
 
 use super::HaloFocus;
 use super::focus;
-use crate::document::Problem;
 use crate::document::check::Check;
 use crate::document::declare::{choices, table};
 use crate::document::describe::{Kind, Shape, Table};
@@ -11,6 +10,7 @@ use crate::document::kind::{Bounds, Lengths, ListOf, Number, On, TableOf};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use crate::tables::over::Label;
+use crate::tables::unit_pairs::UnitPairs;
 use crate::tables::{LabelKey, Length};
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -130,46 +130,13 @@ pub(super) static TABLE: Table<Seeding> = Seeding::description(
 /// `"opacity"`, or a list of pairs.
 struct SeedValues;
 
-/// A value and h_v.
-struct Pair;
-
-/// The pairs, whatever their order.
-const PAIRS: ListOf<Pair> = ListOf { what: "a list of pairs", each: Pair };
-
-impl Shape for Pair {
-    fn expected(&self) -> String {
-        "[value, number], the number from 0 to 1".into()
-    }
-
-    fn schema(&self) -> Json {
-        let number = json!({ "type": "number" });
-        json!({ "type": "array", "prefixItems": [number, Bounds::UNIT.schema()], "minItems": 2, "maxItems": 2 })
-    }
-}
-
-impl Kind for Pair {
-    type Of = [f64; 2];
-
-    fn read(&self, item: &Item, check: &mut Check) -> Option<[f64; 2]> {
-        let numbers = item.list().map(|list| list.iter().map(Item::number).collect::<Vec<_>>());
-        match numbers.as_deref() {
-            Some(&[Some(value), Some(factor)]) if Bounds::UNIT.contain(factor) => Some([value, factor]),
-            _ => check.wrong(item, self.expected()),
-        }
-    }
-
-    fn write(&self, value: &[f64; 2]) -> Out {
-        Out::numbers(value)
-    }
-}
-
 impl Shape for SeedValues {
     fn expected(&self) -> String {
-        format!("\"opacity\", or {}", PAIRS.expected())
+        format!("\"opacity\", or {}", UnitPairs.expected())
     }
 
     fn schema(&self) -> Json {
-        json!({ "anyOf": [{ "const": "opacity" }, PAIRS.schema()] })
+        json!({ "anyOf": [{ "const": "opacity" }, UnitPairs.schema()] })
     }
 }
 
@@ -181,23 +148,13 @@ impl Kind for SeedValues {
             let opacity = (item.text() == Some("opacity")).then_some(SeedValue::Opacity);
             return opacity.or_else(|| check.wrong(item, self.expected()));
         }
-        let nodes = PAIRS.read(item, check)?;
-        match nodes.windows(2).position(|pair| pair[1][0] < pair[0][0]) {
-            None => Some(SeedValue::Nodes(nodes)),
-            Some(i) => {
-                let [before, after] = [nodes[i][0], nodes[i + 1][0]];
-                let what = format!("pair {} at {after} stands after pair {i} at {before}", i + 1);
-                let remedy = "put the pairs in non-decreasing order of the value".into();
-                check.fault_in_list(&format!("[{}]", i + 1), Problem::Contradiction { what, remedy });
-                None
-            }
-        }
+        UnitPairs.read(item, check).map(SeedValue::Nodes)
     }
 
     fn write(&self, value: &SeedValue) -> Out {
         match value {
             SeedValue::Opacity => Out::Text("opacity".into()),
-            SeedValue::Nodes(nodes) => PAIRS.write(nodes),
+            SeedValue::Nodes(nodes) => UnitPairs.write(nodes),
         }
     }
 }

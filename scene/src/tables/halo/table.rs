@@ -4,11 +4,12 @@ use super::profile::Profile;
 use super::{ProfileNode, Seeding, Spreading, seed, spread};
 use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
-use crate::document::describe::{Kind, Later, Shape, Table};
+use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, ListOf, Number, Numbers, Rule, TableOf, Text, Whole};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
+use crate::tables::object::{PartName, PartNames};
 use serde_json::{Value as Json, json};
 
 /// One table `[[halo]]`.
@@ -22,6 +23,8 @@ pub struct Halo {
     pub seed: Seeding,
     /// a of |g|^a and b of (1 − |n·v|)^b.
     pub exponents: Exponents,
+    /// The part whose samples seed it; none: all parts.
+    pub object: Option<PartName>,
     /// From seeds to intensities.
     pub spread: Spreading,
     /// Colour and opacity over the intensity, in non-decreasing order of `at`; at least one node.
@@ -101,6 +104,7 @@ impl Default for Halo {
             kind: HaloKind::Occlusive,
             seed: Seeding::default(),
             exponents: Exponents::Contour,
+            object: None,
             spread: Spreading::default(),
             profile: vec![node(0.2, 0.0), node(0.6, 0.8)],
             opacity: 1.0,
@@ -124,7 +128,6 @@ const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
 
 /// The description of a halo. `kind` is read before `accumulate`, whose default it decides.
 pub(crate) static TABLE: Table<Halo> = Table {
-    later: &[Later { name: "object", tag: "VS-2" }],
     ..Table::new(
         "a halo",
         "A volumetric halo: a fog around the sides of things, or a tint of what lies behind them.",
@@ -143,6 +146,8 @@ pub(crate) static TABLE: Table<Halo> = Table {
             /// a and b of |g|^a · (1 − |n·v|)^b: how much a seed depends on the strength of a boundary, and how much on the
             /// angle that it is seen at.
             exponents: key("HALO-3", ExponentsKind).needs(&[Quantity::GradientMagnitudeRange]);
+            /// The part whose samples seed it: "background", the name of an object, or "NAME ghost".
+            object: key("VS-2", PartNames).absent("all parts");
             /// From the seeds of a plane to the halo's intensities on it.
             spread: key("HALO-5", TableOf(&spread::TABLE));
             /// Colours and opacities over the intensity, in non-decreasing order of `at`, linear between them and constant

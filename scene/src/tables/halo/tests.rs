@@ -202,7 +202,7 @@ fn a_wrong_halo_says_what_was_expected() {
         ("floor = -1\n", "halo[0].floor cannot be -1", "write a number from 0 to 1"),
         ("every = 1025\n", "halo[0].every cannot be 1025", "write a whole number from 1 to 1024"),
         ("accumulate = \"sum\"\n", "halo[0].accumulate cannot be \"sum\"", "write \"max\" or \"mean\""),
-        ("object = \"tumour\"\n", "halo[0].object is not built yet", "remove it"),
+        ("object = \"tumour\"\n", "there is no part \"tumour\"", "there is background"),
         ("seeds = {}\n", "a halo has no key \"seeds\"", "write \"seed\"; the keys here are name, kind, seed, "),
         (
             "name = \"a\"\n[[halo]]\nname = \"a\"\n",

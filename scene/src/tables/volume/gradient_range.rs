@@ -19,7 +19,7 @@ pub enum GradientRange {
 }
 
 /// `"q0.999"`, `"max"` or `[lo, hi]`.
-pub(super) struct Quantile;
+pub(crate) struct Quantile;
 
 impl Quantile {
     const RANGE: Numbers<2> = Numbers { what: "a range [lo, hi]", bounds: Bounds::NOT_NEGATIVE, rule: Rule::Ascending };

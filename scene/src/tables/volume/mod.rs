@@ -19,7 +19,7 @@ use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
 use crate::quantity::Quantity;
 use crate::volume::Subset;
-use gradient_range::Quantile;
+pub(crate) use gradient_range::Quantile;
 use phantom::PHANTOM;
 use raw::RAW;
 use std::path::PathBuf;
@@ -115,13 +115,23 @@ impl VolumeTable {
     }
 }
 
+/// The fault of a template that is drawn without a volume ([VS-11]).
+pub(super) fn no_volume() -> Problem {
+    Problem::Contradiction {
+        what: "the scene is a template: it names no volume".into(),
+        remedy:
+            "name a volume after the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } \
+                 in [volume]"
+                .into(),
+    }
+}
+
 /// The description of `[volume]`.
 pub(crate) static TABLE: Table<VolumeTable> = Table {
     instead: &[Instead { one: "phantom", others: &["file"] }],
     check: |_, check| {
         if !check.has("file") && !check.has("phantom") {
-            let expected = "file = \"…\", or phantom = { name = \"…\" }".into();
-            check.fault_in("file", Problem::Missing { expected });
+            check.fault_in("file", no_volume());
         }
     },
     ..Table::new(

@@ -1,0 +1,163 @@
+//! Checks of `[[object]]` and `[[intersection]]` against other tables, and of every name of a part.
+
+use super::no_label_names;
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::nearest::nearest;
+use crate::tables::{LabelKey, ObjectTable, PartName, Scene};
+
+/// Reports every contradiction of objects, and every name of a part that nothing has.
+pub(super) fn check(scene: &Scene, check: &mut Check) {
+    // A list at fault is not in the scene.
+    if !check.sound(&["object"]) {
+        return;
+    }
+    names(&scene.objects, check);
+    labels(scene, check);
+    references(scene, check);
+    intersections(scene, check);
+}
+
+/// An object is called by its name. No two may share one, and none may have that of another part.
+fn names(objects: &[ObjectTable], check: &mut Check) {
+    for (i, object) in objects.iter().enumerate() {
+        let problem = if let Some(first) = objects[..i].iter().position(|other| other.name == object.name) {
+            let what = format!("object[{first}] and object[{i}] are both called {:?}", object.name);
+            Some((what, "give each object a name of its own"))
+        } else if object.name == PartName::BACKGROUND || object.name.ends_with(PartName::GHOST) {
+            Some((format!("{:?} is the name of another part", object.name), "give the object another name"))
+        } else {
+            None
+        };
+        if let Some((what, remedy)) = problem {
+            check.fault_in(&format!("object[{i}].name"), Problem::Contradiction { what, remedy: remedy.into() });
+        }
+    }
+}
+
+/// Labels need a label volume, and their names a table of names: those beside the object's data.
+fn labels(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["volume"]) {
+        return;
+    }
+    for (i, object) in scene.objects.iter().enumerate() {
+        let Some(labels) = &object.label else { continue };
+        let (volume, names, table) = match object.volume {
+            Some(_) => (&object.labels, &object.label_names, format!("object[{i}]")),
+            None => (&scene.volume.labels, &scene.volume.label_names, "volume".into()),
+        };
+        let key = format!("object[{i}].label");
+        if volume.is_none() {
+            let what = format!("{key} selects labels, and the data has none");
+            let remedy = format!("add the label volume: {table}.labels = \"…\"");
+            check.fault_in(&key, Problem::Contradiction { what, remedy });
+        } else if let (None, Some(LabelKey::Name(name))) =
+            (names, labels.iter().find(|label| matches!(label, LabelKey::Name(_))))
+        {
+            check.fault_in(&key, no_label_names(name));
+        }
+    }
+}
+
+/// Clip planes and halos may name the background, objects, and ghosts of moved objects.
+fn references(scene: &Scene, check: &mut Check) {
+    let of_clips = scene.clips.iter().enumerate().flat_map(|(i, clip)| {
+        clip.applies.iter().enumerate().map(move |(j, part)| (format!("clip[{i}].applies[{j}]"), part))
+    });
+    let of_halos = scene.halos.iter().enumerate();
+    let of_halos = of_halos.filter_map(|(i, halo)| Some((format!("halo[{i}].object"), halo.object.as_ref()?)));
+    let known = known_parts(&scene.objects);
+    let all: Vec<_> = of_clips.chain(of_halos).filter(|(_, part)| !known.contains(part)).collect();
+    let known: Vec<String> = known.iter().map(ToString::to_string).collect();
+    for (key, part) in all {
+        unknown(&key, "part", &part.to_string(), known.clone(), check);
+    }
+}
+
+/// All parts of a scene.
+fn known_parts(objects: &[ObjectTable]) -> Vec<PartName> {
+    let of_object = objects.iter().flat_map(|object| {
+        let ghost = object.motion.is_moved().then(|| PartName::Ghost(object.name.clone()));
+        [PartName::Selection(object.name.clone())].into_iter().chain(ghost)
+    });
+    [PartName::Background].into_iter().chain(of_object).collect()
+}
+
+/// An intersection is of an object that exists, and a pair has one table.
+fn intersections(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["intersection"]) {
+        return;
+    }
+    for (i, table) in scene.intersections.iter().enumerate() {
+        if scene.objects.iter().all(|object| object.name != table.object) {
+            let known = scene.objects.iter().map(|object| object.name.clone()).collect();
+            unknown(&format!("intersection[{i}].object"), "object", &table.object, known, check);
+        }
+        let same = |other: &&_| -> bool {
+            let other: &crate::tables::IntersectionTable = other;
+            (&other.object, other.with) == (&table.object, table.with)
+        };
+        if let Some(first) = scene.intersections[..i].iter().position(|other| same(&other)) {
+            let what = format!("intersection[{first}] and intersection[{i}] are of the same pair");
+            let remedy = "keep one of them".into();
+            check.fault_in(&format!("intersection[{i}]"), Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
+/// Reports a name that nothing has.
+fn unknown(key: &str, what: &str, name: &str, known: Vec<String>, check: &mut Check) {
+    let nearest = nearest(name, known.iter().map(String::as_str)).map(Into::into);
+    check.fault_in(key, Problem::Reference { what: what.into(), name: name.into(), nearest, known });
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use std::path::Path;
+
+    /// The faults of a scene with these lines.
+    fn faults(rest: &str) -> String {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\nlabels = \"l.nrrd\"\n{rest}");
+        let faults = parse(&text, Path::new("scene.toml"), &Overrides::default()).err();
+        faults.map(|faults| faults.to_string()).unwrap_or_default()
+    }
+
+    #[test]
+    fn contradictions_of_objects_are_told_with_their_keys() {
+        let object = |rest: &str| format!("[[object]]\nname = \"tumour\"\n{rest}\n");
+        for (rest, key, what) in [
+            (object("") + &object(""), "object[1].name", "both called"),
+            ("[[object]]\nname = \"background\"\n".into(), "object[0].name", "the name of another part"),
+            (object("label = \"liver\""), "object[0].label", "has no names of them"),
+            (object("volume = \"b.nrrd\"\nlabel = 3"), "object[0].label", "object[0].labels = \"…\""),
+            (object("range = [0, 1]"), "object[0].range", "has none"),
+            (object("scale = [1, 1, 1e-20]"), "object[0].scale", "is singular"),
+            (object("scale = 0"), "object[0].scale", "none is 0"),
+            (
+                object("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]"),
+                "object[0].matrix",
+                "four rows",
+            ),
+            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "has both"),
+            (object("value = [[3, 1], [2, 0]]"), "object[0].value[1]", "non-decreasing"),
+            (object("[object.transfer]\nnodes = [{ at = 1, style = \"waxx\", opacity = 1 }]"), "style", "wax"),
+            (object("") + "[[intersection]]\nobject = \"tumor\"\n", "intersection[0].object", "tumour"),
+            (object("") + &"[[intersection]]\nobject = \"tumour\"\n".repeat(2), "intersection[1]", "of the same pair"),
+            (
+                object("") + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour ghost\"]\n",
+                "clip[0].applies[0]",
+                "background",
+            ),
+            (object("") + "[[halo]]\nobject = \"tumors\"\n", "halo[0].object", "tumour"),
+        ] {
+            let told = faults(&rest);
+            assert!(told.contains(key) && told.contains(what), "{rest}\n{told}");
+        }
+        let sound = object(
+            "label = [1, 2]\nmove = [0, 0, 4]\n[object.styles]\nmine = \"mine.png\"\n[object.transfer]\nnodes = [{ at = 1, style = \"mine\", opacity = 1 }]",
+        ) + "[[halo]]\nobject = \"tumour ghost\"\n[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour\"]\n"
+            + "[[intersection]]\nobject = \"tumour\"\nwith = \"background\"\ncolor = \"#ff000080\"\n";
+        assert_eq!(faults(&sound), "");
+    }
+}

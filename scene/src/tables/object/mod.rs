@@ -1,0 +1,15 @@
+//! `[[object]]`: a selection of the data, which can be moved away from its ghost, and cutaways for it ([VS-2], [VS-7]).
+
+mod ghost;
+mod motion;
+mod part_name;
+mod scene_of;
+mod table;
+
+pub use ghost::GhostTable;
+pub use motion::{Motion, Rotation};
+pub use part_name::PartName;
+pub(crate) use part_name::PartNames;
+pub use scene_of::Role;
+pub(crate) use table::TABLE;
+pub use table::{Cut, ObjectTable};

@@ -1,0 +1,253 @@
+//! The description of `[[object]]`.
+
+use super::motion::{Factors, Matrix, ROTATION};
+use super::{GhostTable, Motion, ghost};
+use crate::document::check::Check;
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Kind, Later, Shape, Table};
+use crate::document::fault::Problem;
+use crate::document::item::Item;
+use crate::document::kind::{Bounds, Flag, Lengths, ListOf, Number, Numbers, On, PathTo, Rule, TableOf, Text};
+use crate::document::out::Out;
+use crate::quantity::Quantity;
+use crate::tables::over::Label;
+use crate::tables::unit_pairs::UnitPairs;
+use crate::tables::volume::Quantile;
+use crate::tables::{GradientRange, LabelKey, Length, Outside, Shading, Styles, Transfer, shading, styles, transfer};
+use serde_json::{Value as Json, json};
+use std::path::PathBuf;
+
+/// One table `[[object]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectTable {
+    /// Name by which other tables call it.
+    pub name: String,
+    /// The file of its own data; none: the data of `[volume]`.
+    pub volume: Option<PathBuf>,
+    /// The file of the label volume beside its own data.
+    pub labels: Option<PathBuf>,
+    /// The table of the names of these labels.
+    pub label_names: Option<PathBuf>,
+    /// The value range of its own data ([VAL-1]); none: the data's own.
+    pub range: Option<[f64; 2]>,
+    /// The range of ‖g‖ of its own data that |g| maps to [0, 1] ([VAL-2]).
+    pub gradient_range: GradientRange,
+    /// Which values of its own data lie outside a surface ([NORM-1]).
+    pub outside: Outside,
+    /// The file of a selection volume.
+    pub selection: Option<PathBuf>,
+    /// Labels that are selected.
+    pub label: Option<Vec<LabelKey>>,
+    /// Pairs of a value and its membership, in non-decreasing order of the value.
+    pub value: Option<Vec<[f64; 2]>>,
+    /// M.
+    pub motion: Motion,
+    /// γ of the background before the selection, in [0, 1].
+    pub ghosting: f64,
+    /// γ of the background before the ghost, in [0, 1].
+    pub ghosting_of_ghost: f64,
+    /// The depth up to which the background is cut.
+    pub cut: Cut,
+    /// σ of the smooth cutaway, on the page; none: a hard cut.
+    pub funnel: Option<Length>,
+    /// Whether it is the one that a person works on.
+    pub active: bool,
+    /// Whether a viewer highlights it.
+    pub highlight: bool,
+    /// Its own colours or styles, and opacities; none: the picture's.
+    pub transfer: Option<Transfer>,
+    /// Its own styles, over the picture's; none: the picture's.
+    pub styles: Option<Styles>,
+    /// Its own light; none: the picture's.
+    pub shading: Option<Shading>,
+    /// The look of its ghost; none: its own.
+    pub ghost: Option<GhostTable>,
+}
+
+choices! {
+    /// The depth d up to which the background of a ray is cut away ([VS-7]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Cut {
+        /// The far side of the object's oriented bounding box: the paper's.
+        Bounds = "bounds",
+        /// The last sample that belongs to the object.
+        Object = "object",
+    }
+}
+
+impl Default for ObjectTable {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            volume: None,
+            labels: None,
+            label_names: None,
+            range: None,
+            gradient_range: GradientRange::Quantile(0.999),
+            outside: Outside::Low,
+            selection: None,
+            label: None,
+            value: None,
+            motion: Motion::NONE,
+            ghosting: 0.0,
+            ghosting_of_ghost: 0.0,
+            cut: Cut::Bounds,
+            funnel: None,
+            active: false,
+            highlight: false,
+            transfer: None,
+            styles: None,
+            shading: None,
+            ghost: None,
+        }
+    }
+}
+
+impl ObjectTable {
+    /// The files that the object names, and the folders of its themes.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        let own = [&self.volume, &self.labels, &self.label_names, &self.selection].into_iter().flatten();
+        let ghost = self.ghost.iter();
+        let transfers = self.transfer.iter().chain(ghost.clone().filter_map(|ghost| ghost.transfer.as_ref()));
+        let styles = self.styles.iter().chain(ghost.filter_map(|ghost| ghost.styles.as_ref()));
+        own.chain(transfers.flat_map(Transfer::volumes)).chain(styles.flat_map(Styles::paths))
+    }
+
+    /// The object with the name that an object without one has at its place in the list.
+    pub(crate) fn named(self, place: usize) -> Self {
+        if self.name.is_empty() { Self { name: format!("object {place}"), ..self } } else { self }
+    }
+}
+
+/// A number from 0 to 1.
+const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
+const POINT: Numbers<3> = Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free };
+const WAY: Numbers<3> = Numbers { what: "a way [x, y, z] in world units", bounds: Bounds::ANY, rule: Rule::Free };
+const RANGE: Numbers<2> = Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending };
+
+/// Keys that stand beside `volume`.
+const OF_OWN_VOLUME: [&str; 5] = ["labels", "label_names", "range", "gradient_range", "outside"];
+
+/// The description of a table `[[object]]`.
+pub(crate) static TABLE: Table<ObjectTable> = Table {
+    later: &[Later { name: "strokes", tag: "VS-6" }],
+    instead: &[
+        Instead { one: "selection", others: &["label", "value"] },
+        Instead { one: "label", others: &["value"] },
+        Instead { one: "matrix", others: &["move", "scale", "rotate", "center"] },
+    ],
+    check: |object, check| {
+        if object.volume.is_none() && check.sound(&["volume"]) {
+            for key in OF_OWN_VOLUME.into_iter().filter(|key| check.has(key)).collect::<Vec<_>>() {
+                let what = format!("{key} is about the object's own data, and the object has none");
+                let remedy = "add volume = \"…\", or write the key in [volume]".into();
+                check.fault_in(key, Problem::Contradiction { what, remedy });
+            }
+        }
+        if check.sound(&["scale", "rotate", "matrix"]) && object.motion.is_singular() {
+            let key = if object.motion.matrix.is_some() { "matrix" } else { "scale" };
+            let what = format!("the motion of the object {:?} is singular: it flattens the object", object.name);
+            let remedy = "give it a linear part with an inverse: no factor of 0 beside the others".into();
+            check.fault_in(key, Problem::Contradiction { what, remedy });
+        }
+    },
+    ..Table::new(
+        "an object",
+        "A selection of the data with a look of its own. Moved, it leaves a ghost at its original place; the rest is the \
+         background, which can be cut away before the object.",
+        ObjectTable::default,
+        keys! { ObjectTable {
+            /// Name by which other tables call it.
+            name: key("VS-2", Text { what: "the name of an object" },
+                |o| (!o.name.is_empty()).then(|| o.name.clone()),
+                |o, v| o.name = v).absent("\"object N\", N its place in the list, from 0");
+            /// Data of its own, on a grid of its own: nothing is resampled. Such an object takes nothing from the background.
+            volume: key("VS-2", PathTo { what: "a volume" }).absent("the data of [volume]");
+            /// The label volume beside its own data.
+            labels: key("VS-2", PathTo { what: "a label volume" }).absent("no labels");
+            /// The names of these labels: a CSV file with an id and a name on each line.
+            label_names: key("VS-2", PathTo { what: "a table of names" }).absent("labels have no names");
+            /// The values of its own data that `unit = "normalized"` maps to 0 and 1.
+            range: key("VAL-1", RANGE).absent("the data's own");
+            /// The gradient of its own data that |g| = 1 stands for.
+            gradient_range: key("VAL-2", Quantile,
+                |o| o.volume.is_some().then_some(o.gradient_range),
+                |o, v| o.gradient_range = v).absent("\"q0.999\"");
+            /// Which values of its own data lie outside a surface.
+            outside: key("NORM-1", Outside::KIND,
+                |o| o.volume.is_some().then_some(o.outside),
+                |o, v| o.outside = v).absent("\"low\"");
+            /// A selection volume with memberships from 0 to 1, on a grid of its own. Outside its box nothing is selected.
+            selection: key("VS-2", PathTo { what: "a selection volume" }).absent("`label`, `value`, or all of the data");
+            /// The label that is selected, by id or by name, or a list of them.
+            label: key("VS-2", Labels).absent("`selection`, `value`, or all of the data");
+            /// Membership over the value: pairs [value, membership], linear between them and constant beyond both ends.
+            value: key("VS-2", UnitPairs).absent("`selection`, `label`, or all of the data");
+            /// The way that the selection is moved.
+            shift: key("VS-2", WAY,
+                |o| o.motion.matrix.is_none().then(|| o.motion.shift.to_array()),
+                |o, v| o.motion.shift = v.into()).named("move");
+            /// Factor by which the selection is scaled about `center`, or one for each world axis; negative reflects.
+            scale: key("VS-2", Factors,
+                |o| o.motion.matrix.is_none().then(|| o.motion.scale.to_array()),
+                |o, v| o.motion.scale = v.into());
+            /// Rotation of the selection about `center`, after it was scaled.
+            rotate: key("VS-2", TableOf(&ROTATION), |o| o.motion.rotation, |o, v| o.motion.rotation = Some(v))
+                .absent("no rotation");
+            /// The point about which the selection is scaled and rotated.
+            center: key("VS-2", POINT,
+                |o| o.motion.center.map(|c| c.to_array()),
+                |o, v| o.motion.center = Some(v.into())).absent("the centre of the selection's box");
+            /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
+            matrix: key("VS-2", Matrix, |o| o.motion.matrix, |o, v| o.motion.matrix = Some(v))
+                .absent("`move`, `scale`, `rotate` and `center`");
+            /// γ: how far the background before the selection fades, 1 all of it. Contours of strong boundaries fade last.
+            ghosting: key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
+            /// γ before the ghost.
+            ghosting_of_ghost: key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
+            /// The depth up to which the background is cut.
+            cut: key("VS-7", Cut::KIND);
+            /// σ of the Gaussian that turns the cut into a funnel.
+            funnel: key("VS-7", Lengths { on: On::Page, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
+            /// Whether it is the object that a person works on. No pixel depends on it.
+            active: key("VS-2", Flag);
+            /// Whether a viewer highlights it. No pixel depends on it.
+            highlight: key("VS-2", Flag);
+            /// Its own colours or styles, and opacities.
+            transfer: key("VS-2", TableOf(&transfer::TABLE)).absent("the picture's").needs(&[Quantity::Value]);
+            /// The lit-sphere pictures that its function names, over those of the picture.
+            styles: key("VS-2", TableOf(&styles::TABLE)).absent("the picture's");
+            /// Its own light on a regular function.
+            shading: key("VS-2", TableOf(&shading::TABLE)).absent("the picture's").needs(&[Quantity::Gradient]);
+            /// The look of its ghost.
+            ghost: key("VS-2", TableOf(&ghost::TABLE)).absent("the object's");
+        } },
+    )
+};
+
+/// A label, or a list of labels.
+struct Labels;
+
+const LABELS: ListOf<Label> = ListOf { what: "a list of labels", each: Label };
+
+impl Shape for Labels {
+    fn expected(&self) -> String {
+        format!("{}, or {}", Label.expected(), LABELS.expected())
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [Label.schema(), LABELS.schema()] })
+    }
+}
+
+impl Kind for Labels {
+    type Of = Vec<LabelKey>;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<LabelKey>> {
+        if item.list().is_some() { LABELS.read(item, check) } else { Some(vec![Label.read(item, check)?]) }
+    }
+
+    fn write(&self, value: &Vec<LabelKey>) -> Out {
+        if let [one] = &value[..] { Label.write(one) } else { LABELS.write(value) }
+    }
+}
