@@ -15,4 +15,5 @@ pub mod suggest;
 pub mod surface;
 pub mod transfer;
 pub mod volume_stippling;
+pub mod volumeshop;
 pub mod volumetric_halos;
