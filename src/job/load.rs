@@ -91,7 +91,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
 }
 
 /// Returns the remedy of a label's name that nothing has.
-fn known_label(name: &str, names: &LabelNames) -> String {
+pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
     match names.nearest(name) {
         Some(nearest) => format!("write {nearest:?}"),
         None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),

@@ -9,7 +9,7 @@ pub(crate) mod rod;
 pub(crate) mod strip;
 
 use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
-use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
 use drypoint::reference::suggest;
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
@@ -258,6 +258,7 @@ impl Stage {
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
             background,
+            objects: ObjectInputs::default(),
         })
     }
 }

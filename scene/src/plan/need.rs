@@ -16,6 +16,8 @@ pub enum Samples {
     First,
     /// The samples that are asked for seeds of halos, visible or not ([HALO-2]).
     Seeds,
+    /// The visible samples of an object's selection or ghost ([VS-2]).
+    Part,
 }
 
 /// A quantity that an effect needs.
@@ -40,7 +42,7 @@ impl Need {
     /// Returns the work that the need adds to a picture.
     pub fn adds(&self) -> &'static str {
         match self.samples {
-            Samples::Visible => self.quantity.adds(),
+            Samples::Visible | Samples::Part => self.quantity.adds(),
             Samples::First => self.quantity.adds_at_first(),
             Samples::Seeds => self.quantity.adds_at_seeds(),
         }

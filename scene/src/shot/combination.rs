@@ -81,6 +81,8 @@ pub struct Cutaway {
 /// The look of a place where a selection meets its ghost or the background.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Intersection {
+    /// The place of its table in the scene.
+    pub table: usize,
     /// The place of the selection among [`Combination::parts`].
     pub selection: usize,
     /// The place of the ghost; none: the background.
@@ -176,7 +178,7 @@ impl Shot {
             Some(Cutaway { part, ghosting, cut, funnel })
         });
         let cutaways = cutaways.collect();
-        let intersection = |table: &IntersectionTable| {
+        let intersection = |(place_of_table, table): (usize, &IntersectionTable)| {
             let object = scene.objects.iter().position(|object| object.name == table.object)?;
             let (selection, params) = (place(object, Role::Selection)?, &described[object]);
             let ghost = match table.with {
@@ -191,13 +193,13 @@ impl Shot {
                 IntersectionColor::Color([r, g, b, opacity]) => IntersectionPaint::Color([r, g, b], opacity),
                 IntersectionColor::Picture(_) => IntersectionPaint::Picture([here, facts[selection].range]),
             };
-            Some(Intersection { selection, ghost, color, opacity: table.opacity, swap: table.swap })
+            Some(Intersection { table: place_of_table, selection, ghost, color, opacity: table.opacity, swap: table.swap })
         };
         let combination = Combination {
             fuzzy: scene.combine.map_or(Fuzzy::Zadeh, |table| table.fuzzy),
             parts: parts?,
             cutaways,
-            intersections: scene.intersections.iter().filter_map(intersection).collect(),
+            intersections: scene.intersections.iter().enumerate().filter_map(intersection).collect(),
             selections: described,
         };
         Ok(Self { combination: Some(combination), ..self })

@@ -5,6 +5,7 @@ mod clip;
 mod contours;
 mod halo;
 mod hatching;
+mod object;
 mod outlines;
 mod pen;
 mod picture;
@@ -47,7 +48,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 17] = [
+static ALL: [Rules; 20] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -61,6 +62,9 @@ static ALL: [Rules; 17] = [
     contours::RULES,
     style_mipmaps::RULES,
     halo::RULES,
+    object::COMBINE,
+    object::RULES,
+    object::INTERSECTION,
     stipples::RULES,
     hatching::RULES,
     outlines::RULES,

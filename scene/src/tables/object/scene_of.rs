@@ -1,6 +1,6 @@
 //! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
 
-use crate::tables::{Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
+use crate::tables::{GhostTable, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
 use serde::Serialize;
 
 /// A part of an object.
@@ -30,6 +30,7 @@ impl Scene {
         let transfer: [Option<&Transfer>; 2] = [ghost.and_then(|g| g.transfer.as_ref()), table.transfer.as_ref()];
         let shading: [Option<&Shading>; 2] = [ghost.and_then(|g| g.shading.as_ref()), table.shading.as_ref()];
         let mut scene = Self {
+            given: self.given.with_tables(&tables_of(object, table, ghost)),
             transfer: first(transfer).or_else(|| self.transfer.clone()),
             shading: first(shading).or_else(|| self.shading.clone()),
             styles: self.styles_of(object, ghost.is_some(), &|key| self.given.contains(key)),
@@ -50,6 +51,17 @@ impl Scene {
         };
         scene.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(&own));
         scene
+    }
+
+    /// A key of a part's scene as the scene itself says it.
+    pub(crate) fn key_of_part(&self, object: usize, role: Role, key: &str) -> String {
+        let table = &self.objects[object];
+        let tables = tables_of(object, table, table.ghost.as_ref().filter(|_| role == Role::Ghost));
+        let outer = tables.iter().find_map(|(outer, place)| {
+            let rest = key.strip_prefix(place)?;
+            (rest.is_empty() || rest.starts_with(['.', '['])).then(|| format!("{outer}{rest}"))
+        });
+        outer.unwrap_or_else(|| key.to_owned())
     }
 
     /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
@@ -84,6 +96,27 @@ impl Scene {
             ..VolumeTable::new(VolumeSource::File { path: path.clone(), raw: None })
         }
     }
+}
+
+/// The tables of a part's scene that its object or its ghost says, each with the key that it has as the picture's.
+fn tables_of(
+    object: usize,
+    table: &ObjectTable,
+    ghost: Option<&GhostTable>,
+) -> Vec<(String, &'static str)> {
+    let outer = |of_ghost: bool, of_object: bool, name: &'static str| match (of_ghost, of_object) {
+        (true, _) => Some((format!("object[{object}].ghost.{name}"), name)),
+        (false, true) => Some((format!("object[{object}].{name}"), name)),
+        (false, false) => None,
+    };
+    let own = table.volume.is_some().then(|| (format!("object[{object}]"), "volume"));
+    let tables = [
+        outer(ghost.is_some_and(|g| g.transfer.is_some()), table.transfer.is_some(), "transfer"),
+        outer(ghost.is_some_and(|g| g.shading.is_some()), table.shading.is_some(), "shading"),
+        outer(ghost.is_some_and(|g| g.styles.is_some()), table.styles.is_some(), "styles"),
+        own,
+    ];
+    tables.into_iter().flatten().collect()
 }
 
 fn first<T: Clone>(tables: [Option<&T>; 2]) -> Option<T> {
