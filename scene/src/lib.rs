@@ -15,6 +15,7 @@ pub mod file;
 pub mod fragments;
 pub mod knobs;
 mod length;
+pub mod lighting;
 pub mod marks;
 pub mod math;
 pub mod measured;
