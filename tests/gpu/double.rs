@@ -119,6 +119,24 @@ fn tones_and_silhouettes() {
 }
 
 #[test]
+fn lighting_functions() {
+    let of = |preset: &str, more: &str| {
+        format!("[shading]\nmodel = \"lighting-function\"\npreset = \"{preset}\"\nlight = [-0.5, 0.4, 0.7]\n{more}")
+    };
+    let names = ["blinn-phong", "blinn-phong-contours", "cartoon-contours", "metal-contours", "gradient", "tone"];
+    let mut variants: Vec<(String, String)> = names.map(|name| (name.to_owned(), of(name, ""))).into();
+    let more = |name: &str, more: &str| (name.to_owned(), of("metal-contours", more));
+    variants.extend([
+        more("printed", "contour = \"printed\"\n"),
+        more("divisor at least 0.5", "divisor_floor = 0.5\n"),
+        more("silhouettes and view opacity", "view_opacity = 0.7\n[shading.silhouette]\n"),
+        more("orthographic", "[camera]\nprojection = \"orthographic\"\n"),
+        more("cut", "[[clip]]\npoint = [15, 15, 15]\nnormal = [0, -1, 0]\nspace = \"index\"\n"),
+    ]);
+    compare(&variants.iter().map(|(name, more)| (&**name, &**more)).collect::<Vec<_>>());
+}
+
+#[test]
 fn clip_planes() {
     compare(&[
         ("plane", "[shading]\n[[clip]]\npoint = [15, 15, 15]\nnormal = [0, -1, 0]\nspace = \"index\"\n"),

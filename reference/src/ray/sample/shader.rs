@@ -22,7 +22,7 @@ pub(crate) enum Shader<R> {
         /// Reflection and light.
         phong: Option<Phong<R>>,
     },
-    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]).
+    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]), lighting functions ([VS-5]).
     Illustrated(Illustrated<R>),
     /// Styles (Bruckner and Gröller 2007).
     Style(Styled<R>),
@@ -146,14 +146,14 @@ impl<R: Real> Shader<R> {
 impl<R: Real> Illustrated<R> {
     #[inline(never)]
     fn shade(&self, place: impl Between<R>, attributes: SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
-        let rgb = self.lit.color(place.color(&self.colors), attributes.normal, [dirs.v, dirs.half]);
+        let (rgb, alpha) = self.lit.shade(place.color(&self.colors), place.alpha_u(), &attributes, dirs);
         let alpha = match (self.view_opacity, attributes.normal) {
             // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
             (Some(view_opacity), Some(n)) => {
                 let corrected = |alpha, n_dot_v: f64| Correction::new(view_opacity.exponent(n_dot_v)).apply(alpha);
-                R::monotone([place.alpha_u(), n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
+                R::monotone([alpha, n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
             }
-            _ => place.alpha_u(),
+            _ => alpha,
         };
         (rgb, alpha)
     }

@@ -1,0 +1,5 @@
+//! Bruckner and Gröller, VolumeShop: An Interactive System for Direct Volume Illustration, IEEE Visualization 2005.
+
+pub mod lighting;
+
+pub use lighting::LightingFunction;
