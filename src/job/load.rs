@@ -7,6 +7,7 @@ use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::file::Given;
+use drypoint_scene::memory;
 use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
@@ -16,7 +17,6 @@ use drypoint_scene::volume::labels::LabelNames;
 use drypoint_scene::volume::read::Fault;
 use drypoint_scene::volume::{Volume, read};
 use std::fmt::Display;
-use std::fs;
 use std::sync::Arc;
 
 /// Reads or generates a scene's volume.
@@ -154,7 +154,7 @@ pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<
         let what = format!("the lighting table {}: {what}", file.path.display());
         Failure::new(what, scene.given.position("shading.table"), remedy)
     };
-    let read = fs::read(&file.path).map_err(|error| failed(&error, "give a picture that may be read"));
+    let read = memory::read(&file.path).map_err(|error| failed(&error, "give a picture that may be read"));
     match read.and_then(|bytes| decode_lighting_table(&bytes).map_err(|fault| failed(&fault, fault.help()))) {
         Ok(table) => file.table = Some(Arc::new(table)),
         Err(failure) => failures.push(failure),

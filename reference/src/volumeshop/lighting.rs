@@ -58,7 +58,7 @@ impl<R: Real> LightingFunction<R> {
 
     /// The table at (x, y), both clamped to [−1, 1]: bilinear, x then y.
     #[inline]
-    fn at(&self, x: R, y: R) -> Reflectance<R> {
+    pub(super) fn at(&self, x: R, y: R) -> Reflectance<R> {
         let half_steps = |n: usize| R::from_f64((n - 1) as f64) * R::HALF;
         let (i, wx) = cell((x + R::ONE) * half_steps(self.width), self.width);
         let (j, wy) = cell((R::ONE - y) * half_steps(self.height), self.height);
