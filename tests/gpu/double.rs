@@ -136,6 +136,26 @@ fn lighting_functions() {
     compare(&variants.iter().map(|(name, more)| (&**name, &**more)).collect::<Vec<_>>());
 }
 
+/// Contours under light from the world depend on the camera: a renderer that is turned draws those of a new one.
+#[test]
+fn contours_follow_the_camera() {
+    let Some(gpu) = gpu() else { return };
+    let of = |direction: &str| {
+        load(&format!(
+            "{TORUS}[camera]\ndirection = {direction}\n[shading]\nmodel = \"lighting-function\"\n\
+             preset = \"blinn-phong-contours\"\nlight = {{ world = [1, 0.2, 0.1] }}\n"
+        ))
+    };
+    let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(of);
+    let [on_first, on_second] = [&first, &second].map(|job| GpuJob::new(job, &gpu, Precision::Single).unwrap());
+    let mut turned = on_first.renderer().unwrap();
+    let before = turned.frame(&|_| ()).unwrap();
+    turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
+    let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
+    assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
+    assert_ne!(before.layers, fresh.layers);
+}
+
 #[test]
 fn clip_planes() {
     compare(&[
