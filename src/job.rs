@@ -56,8 +56,8 @@ use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
+use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, named, styles};
 use objects::Objects;
-use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
 pub(crate) use provenance::provenance;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use room::{room_for_halos, room_for_table};
@@ -139,15 +139,17 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn load_for(scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
+    pub fn load_for(mut scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
             Ok(volume) => Self::with_volume_for(scene, volume, target),
             Err(failure) => {
                 // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
-                if calls_for_function(&plan_for(&scene, target), &scene) {
+                let plan = plan_for(&scene, target);
+                if calls_for_function(&plan, &scene) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
+                lighting_table(&mut scene, &plan, &mut others);
                 background(&scene, target, &mut others);
                 Err(Failures::new(failure, others))
             }
@@ -190,6 +192,7 @@ impl Job {
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
         if let Ok(view) = &view {
             plan.warn_eye(view, volume.grid());
+            plan.warn_contours(&scene, view);
         }
         if let (true, Some(step), Ok(view)) =
             (plan.has_pass(Pass::Rays), scene.sampling.step.world(volume.grid()), &view)
@@ -246,6 +249,7 @@ impl Job {
             };
             styles.extend(styles_of(&mut of_caps.iter().map(String::as_str)));
         }
+        lighting_table(&mut scene, &plan, &mut failures);
         let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         Failures::check(failures)?;

@@ -16,6 +16,7 @@ pub mod fragments;
 pub mod intersection_picture;
 pub mod knobs;
 mod length;
+pub mod lighting;
 pub mod marks;
 pub mod math;
 pub mod measured;

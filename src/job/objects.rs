@@ -136,6 +136,10 @@ impl ObjectPart {
     fn scene_of(&self, scene: &Scene) -> (Scene, Plan) {
         let mut of_part = scene.of_part(self.object, self.role);
         of_part.transfer = self.job.scene.transfer.clone();
+        if scene.has_own_shading(self.object, self.role) {
+            // Its table has been read.
+            of_part.shading = self.job.scene.shading.clone();
+        }
         let mut plan = plan_for(&of_part, RenderTarget::Picture);
         plan.settle(&of_part, is_integer(&self.job.volume));
         (of_part, plan)

@@ -28,7 +28,8 @@ pub use combination::{
 pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
-    ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
+    ContourParams, Illumination, LevelOfDetail, Lighting, LightingParams, LightingSource, Material, PhongParams,
+    StyleParams, ToonParams,
 };
 pub use opaque_surface::OpaqueSurface;
 pub use query::{KappaSource, SampleQuery};
@@ -150,6 +151,9 @@ pub enum ShotError {
     /// The iso-value is still left to the volume.
     #[error("surface.iso is \"auto\", and no value was found")]
     NoIso,
+    /// The picture of a lighting table was not read.
+    #[error("shading.table names a picture that was not read")]
+    NoLightingTable,
     /// The focus of a halo is still in pixels.
     #[error("the focus of halo {halo} is given in pixels, and was not picked")]
     FocusInPixels {
@@ -175,7 +179,7 @@ impl Shot {
     ///
     /// # Errors
     /// A length on the page, a Hessian that the kernel does not have, an iso-value that was not found in the data yet, a
-    /// focus that was not picked, the name of a label whose id was not looked up.
+    /// focus that was not picked, the name of a label whose id was not looked up, a lighting table that was not read.
     pub fn resolve(
         scene: &Scene,
         plan: &Plan,

@@ -24,7 +24,7 @@ pub(crate) enum Shader<R> {
         /// Reflection and light.
         phong: Option<Phong<R>>,
     },
-    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]).
+    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]), lighting functions ([VS-5]).
     Illustrated(Illustrated<R>),
     /// Styles (Bruckner and Gröller 2007).
     Style(Styled<R>),
@@ -188,6 +188,10 @@ impl<R: Real> Shader<R> {
                 let away_from_contour = (n.dot(dirs.v).abs() - styled.tau(attributes)).max(R::ZERO);
                 ghosting::enhancement(away_from_contour, attributes.magnitude)
             }
+            (Self::Illustrated(illustrated), Some(n)) => {
+                let s_alpha = illustrated.lit.opacity_enhancement(n, dirs.half);
+                s_alpha.map_or(R::ZERO, |s_alpha| ghosting::enhancement(s_alpha, attributes.magnitude))
+            }
             _ => R::ZERO,
         }
     }
@@ -201,14 +205,14 @@ impl<R: Real> Illustrated<R> {
         attributes: &SampleAttributes<R>,
         dirs: &ViewDirs<R>,
     ) -> ([R; 3], R) {
-        let rgb = self.lit.color(c_u, attributes.normal, [dirs.v, dirs.half]);
+        let (rgb, alpha) = self.lit.shade(c_u, alpha_u, attributes, dirs);
         let alpha = match (self.view_opacity, attributes.normal) {
             // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
             (Some(view_opacity), Some(n)) => {
                 let corrected = |alpha, n_dot_v: f64| Correction::new(view_opacity.exponent(n_dot_v)).apply(alpha);
-                R::monotone([alpha_u, n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
+                R::monotone([alpha, n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
             }
-            _ => alpha_u,
+            _ => alpha,
         };
         (rgb, alpha)
     }

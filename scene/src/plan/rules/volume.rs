@@ -3,7 +3,7 @@
 use super::halo::halos_in_effect;
 use super::{Pass, Rules};
 use crate::quantity::Quantity;
-use crate::tables::{GradientRange, NormalSide, Unit, VolumeSource};
+use crate::tables::{GradientRange, NormalSide, Scene, Unit, VolumeSource};
 
 /// The rules of `[volume]`.
 pub(super) const RULES: Rules = Rules {

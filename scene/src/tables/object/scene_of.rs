@@ -53,6 +53,13 @@ impl Scene {
         scene
     }
 
+    /// Whether a part has a table of shading of its own.
+    pub fn has_own_shading(&self, object: usize, role: Role) -> bool {
+        let table = &self.objects[object];
+        let of_ghost = table.ghost.as_ref().is_some_and(|ghost| role == Role::Ghost && ghost.shading.is_some());
+        table.shading.is_some() || of_ghost
+    }
+
     /// A key of a part's scene as the scene itself says it.
     pub(crate) fn key_of_part(&self, object: usize, role: Role, key: &str) -> String {
         let table = &self.objects[object];
