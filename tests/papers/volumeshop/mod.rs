@@ -1,0 +1,3 @@
+//! VolumeShop (Bruckner and Gröller 2005).
+
+mod painting;
