@@ -14,6 +14,7 @@ mod info;
 mod interrupt;
 mod output;
 mod overrides;
+mod paint;
 mod phantom;
 mod pick;
 mod plan;

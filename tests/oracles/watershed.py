@@ -19,8 +19,10 @@ for dims, values in [((7, 6, 5), None), ((9, 8, 7), None), ((16, 3, 5), None), (
     # Without equal values, or with so many different ones.
     relief = rng.permutation(count) if values is None else rng.integers(0, values, count)
     walls = np.zeros(count, bool) if len(cases) % 2 == 0 else rng.random(count) < 0.2
-    open_voxels = np.flatnonzero(~walls)
-    seeds = np.sort(rng.choice(open_voxels, 4, replace=False))
+    # Markers of different heights: scikit-image does not keep the order of equal ones.
+    seeds = np.zeros(4, int)
+    while len(np.unique(relief[seeds])) < 4:
+        seeds = np.sort(rng.choice(np.flatnonzero(~walls), 4, replace=False))
     markers = np.zeros(count, np.int32)
     markers[seeds] = np.arange(1, 5)
     # x is fastest: the last axis here.

@@ -18,7 +18,6 @@ pub mod orbit;
 pub mod outlines;
 pub mod over;
 pub mod page;
-pub mod painting;
 pub mod pen;
 pub mod picture;
 mod preset;
@@ -52,12 +51,14 @@ pub use hatching::{
 };
 pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable, Opposite};
 pub use nodes::{Row, RowAt, Stand};
-pub use object::{Cut, GhostTable, Motion, ObjectTable, PartName, Role, Rotation};
+pub use object::{
+    Brush, Connectivity, Cut, GhostTable, Motion, ObjectTable, PaintMode, PaintStroke, PaintTarget, PartName, Role,
+    Rotation,
+};
 pub use orbit::Orbit;
 pub use outlines::{Crease, Outlines};
 pub use over::{Axis, LabelKey, Over};
 pub use page::PageSettings;
-pub use painting::{Brush, Connectivity, PaintMode, PaintStroke, PaintTarget};
 pub use pen::PenSettings;
 pub use picture::{Background, BlendSpace, PictureSettings, RaysPerPixel};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};

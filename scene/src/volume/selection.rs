@@ -2,7 +2,7 @@
 
 use super::bricked::BrickedVolume;
 use super::labels::LabelVolume;
-use super::{Anatomy, Volume, VolumeError, Voxels};
+use super::{Anatomy, Volume, Voxels};
 use crate::memory::{self, NoRoom};
 use crate::space::Grid;
 
@@ -60,14 +60,14 @@ impl Selection {
         for (z, y) in (0..nz).flat_map(|z| (0..ny).map(move |y| (z, y))) {
             dense.extend((0..nx).map(|x| self.memberships.value([x, y, z])));
         }
-        Ok(self.dense(dense).with_anatomy(self.anatomy))
-    }
-
-    fn dense(&self, memberships: Vec<f64>) -> Volume {
-        Volume::new(self.grid.clone(), Voxels::F64(memberships), 1.0, 0.0).unwrap_or_else(|error| match error {
-            VolumeError::Length { .. } | VolumeError::NothingFinite | VolumeError::Scaling { .. } => {
-                unreachable!("memberships are finite, one for each voxel")
-            }
+        Ok(Volume {
+            grid: self.grid.clone(),
+            voxels: Voxels::F64(dense),
+            slope: 1.0,
+            intercept: 0.0,
+            mask: None,
+            range: self.memberships.range(),
+            anatomy: self.anatomy,
         })
     }
 

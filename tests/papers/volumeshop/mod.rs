@@ -5,6 +5,7 @@ mod counts;
 mod cutaways;
 mod identity;
 mod motions;
+mod painting;
 
 use drypoint::job::Job;
 use drypoint::scene::counts::Counts;

@@ -82,16 +82,17 @@ pub fn grown(
 ) -> Result<Region, NoRoom> {
     let voxels: usize = dims.iter().product();
     // A bit for each voxel, and at most one place in the list for it.
-    memory::room_for(voxels as u64, size_of::<[usize; 3]>() as u64)?;
+    memory::room_for(voxels as u64, size_of::<usize>() as u64 + 1)?;
     let mut region = Region { dims, bits: vec![0; voxels.div_ceil(64)], bounds: [seed, seed.map(|i| i + 1)], count: 0 };
     region.add(seed);
     let steps = steps(connect);
-    let mut open = vec![seed];
-    while let Some(voxel) = open.pop() {
+    let mut open = vec![region.index(seed)];
+    while let Some(i) = open.pop() {
+        let voxel = [i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1])];
         for next in steps.iter().filter_map(|&step| neighbour(dims, voxel, step)) {
             if !region.has(next) && accepts(next) {
                 region.add(next);
-                open.push(next);
+                open.push(region.index(next));
             }
         }
     }

@@ -203,4 +203,4 @@ static STROKE: Table<PaintStroke> = Table {
 };
 
 /// The kind of `strokes`.
-pub(crate) const STROKES: ListOf<TableOf<PaintStroke>> = ListOf { what: "a list of strokes", each: TableOf(&STROKE) };
+pub(super) const STROKES: ListOf<TableOf<PaintStroke>> = ListOf { what: "a list of strokes", each: TableOf(&STROKE) };
