@@ -41,6 +41,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Page, Pen};
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan, Quantity};
@@ -55,7 +56,7 @@ use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
-use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
+use load::{background, function_failure, further, halo_labels, load_volume, meshes, named, styles};
 pub(crate) use provenance::provenance;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
 use room::{room_for_halos, room_for_table};
@@ -83,6 +84,8 @@ pub struct Job {
     pub(crate) further: [Option<Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
+    /// The meshes that the scene names, in the world.
+    meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
 }
@@ -229,6 +232,7 @@ impl Job {
         }
         let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
+        let meshes = if plan.has_pass(Pass::Rays) { meshes(&scene, &mut failures) } else { Vec::new() };
         Failures::check(failures)?;
         if calls_for_function && function.is_none() {
             let place = scene.given.position("transfer.nodes");
@@ -236,7 +240,8 @@ impl Job {
         }
         let volume = parts::isolate(&scene, function.as_ref(), volume, &mut counts)?;
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background };
+        let mut job =
+            Self { scene, plan, volume, counts, target, view, function, labels, further, styles, meshes, background };
         job.pick_foci()?;
         Ok(job)
     }
@@ -385,6 +390,7 @@ impl Job {
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
+            meshes: &self.meshes,
             background: self.backdrop(shot),
         }
     }

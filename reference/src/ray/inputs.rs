@@ -4,6 +4,7 @@ use super::lattice::MOST_SAMPLES;
 use crate::field::FieldError;
 use crate::transfer::NodesError;
 pub use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
@@ -20,6 +21,8 @@ pub struct Inputs<'a> {
     /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names),
     /// then those that caps name, in the order of [`Clipping::styles`](drypoint_scene::shot::Clipping::styles).
     pub styles: &'a [Style],
+    /// The meshes of the shot, in its order, in the world ([VS-12]).
+    pub meshes: &'a [TriangleMesh],
     /// The background.
     pub background: Backdrop<'a>,
 }

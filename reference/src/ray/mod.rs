@@ -17,6 +17,7 @@ mod pixel_sum;
 mod prepare;
 mod prepared;
 mod prepared_halos;
+mod prepared_meshes;
 mod prepared_surface;
 mod refinement;
 mod render;

@@ -8,6 +8,7 @@ mod clipping;
 pub mod halo;
 mod lattice;
 mod material;
+mod mesh;
 mod opaque_surface;
 mod query;
 mod reconstruction;
@@ -25,6 +26,7 @@ pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
 };
+pub use mesh::MeshParams;
 pub use opaque_surface::OpaqueSurface;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
@@ -54,6 +56,8 @@ pub struct Shot {
     pub objects: [Object; 1],
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
+    /// Opaque meshes ([VS-12]).
+    pub meshes: Vec<MeshParams>,
     /// Clip planes ([RAY-8]).
     pub clipping: Clipping,
     /// Volumetric halos ([HALO-1]).
@@ -214,6 +218,7 @@ impl Shot {
             halos,
             objects: [object],
             surface,
+            meshes: MeshParams::all(scene, &view),
             blend_space: scene.picture.blend_space,
             background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),

@@ -1,6 +1,6 @@
 //! Ray order: one ray after the other, each to its end.
 
-use super::path::{self, Step};
+use super::path::{self, End, Step};
 use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
@@ -51,22 +51,26 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         let (prepared, ray) = (self.prepared, &self.evaluator.ray);
         let object = &prepared.object;
         let visits = |boxes| ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes));
-        let Some(surface) = &prepared.surface else {
+        if prepared.surface.is_none() && prepared.meshes.is_none() {
             return path::steps(ray, visits(boxes), lines, None, steps);
-        };
+        }
         let near = match prepared.view.perspective {
             // Of shells near is the radius.
             true => prepared.lattice.near * (ray.depth_step.to_f64() / prepared.lattice.step),
             false => f64::NEG_INFINITY,
         };
-        let mask = prepared.object.volume.mask();
-        let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
-        let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
-        let hit = surface.roots.first_left(sampler, mask, ray.line(), range, clipped);
-        if surface.alone {
-            path::steps(ray, std::iter::empty(), lines, hit, steps);
+        let on_surface = prepared.surface.as_ref().and_then(|surface| {
+            let mask = prepared.object.volume.mask();
+            let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
+            let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
+            surface.roots.first_left(sampler, mask, ray.line(), range, clipped)
+        });
+        let on_mesh = prepared.meshes.as_ref().and_then(|meshes| meshes.nearest(ray, near));
+        let end = End::nearer(on_surface, on_mesh);
+        if prepared.surface.as_ref().is_some_and(|surface| surface.alone) {
+            path::steps(ray, std::iter::empty(), lines, end, steps);
         } else {
-            path::steps(ray, visits(boxes), lines, hit, steps);
+            path::steps(ray, visits(boxes), lines, end, steps);
         }
     }
 }

@@ -5,6 +5,7 @@ mod clip;
 mod contours;
 mod halo;
 mod hatching;
+mod mesh;
 mod outlines;
 mod pen;
 mod picture;
@@ -47,7 +48,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 17] = [
+static ALL: [Rules; 18] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -65,6 +66,7 @@ static ALL: [Rules; 17] = [
     hatching::RULES,
     outlines::RULES,
     surface::RULES,
+    mesh::RULES,
 ];
 
 /// The rules of the tables of a scene, those of a list of tables once for each item.

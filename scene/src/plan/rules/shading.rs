@@ -34,10 +34,10 @@ pub(super) const RULES: Rules = Rules {
     ..Rules::new("shading")
 };
 
-/// Whether the scene has an iso-surface that is lit.
+/// Whether the scene has an iso-surface or a mesh that is lit.
 pub(super) fn lit_surface(scene: &Scene) -> bool {
     let lit = |look| matches!(look, SurfaceLook::Phong | SurfaceLook::Toon);
-    scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
+    !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
 }
 
 /// Whether its transfer function has colours, which light falls on.
@@ -54,7 +54,8 @@ pub(super) fn lit(scene: &Scene) -> bool {
 fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     let regular = is_regular(scene);
     let toon = shading.model == ShadingModel::Toon;
-    let glossy = scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
+    let has_meshes = !scene.meshes.is_empty();
+    let glossy = has_meshes || scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
     if glossy || (regular && !toon) {
         if shading.specular == 0.0 {
             idle.key("shading.shininess", "specular is 0");

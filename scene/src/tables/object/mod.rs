@@ -7,6 +7,7 @@ mod scene_of;
 mod table;
 
 pub use ghost::GhostTable;
+pub(crate) use motion::{Factors, Matrix, ROTATION};
 pub use motion::{Motion, Rotation};
 pub use part_name::PartName;
 pub(crate) use part_name::PartNames;

@@ -39,6 +39,7 @@ impl Scene {
             hatching: None,
             outlines: None,
             surface: None,
+            meshes: Vec::new(),
             ..self.clone()
         };
         let own = match role {
