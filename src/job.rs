@@ -43,6 +43,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Page, Pen};
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan, Quantity};
@@ -57,7 +58,9 @@ use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
-use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, named, styles};
+use load::{
+    background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles,
+};
 use objects::Objects;
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
@@ -87,6 +90,8 @@ pub struct Job {
     pub(crate) further: [Option<Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
+    /// The meshes that the scene names, in the world.
+    meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
     objects: Objects,
@@ -254,6 +259,7 @@ impl Job {
         lighting_table(&mut scene, &plan, &mut failures);
         let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
+        let meshes = if plan.has_pass(Pass::Rays) { meshes(&scene, &mut failures) } else { Vec::new() };
         Failures::check(failures)?;
         if calls_for_function && function.is_none() {
             let place = scene.given.position("transfer.nodes");
@@ -266,12 +272,11 @@ impl Job {
                 Arc::new(parts::isolate(&scene, function.as_ref(), volume, &mut counts)?)
             }
         };
-        let objects = match plan.has_pass(Pass::Rays) && !scene.objects.is_empty() {
-            true => Objects::load(&scene, &volume, automatic.as_ref())?,
-            false => Objects::default(),
-        };
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background, objects };
+        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, meshes, background, objects: Objects::default() };
+        if job.draws_volume() && !job.scene.objects.is_empty() {
+            job.objects = Objects::load(&job, automatic.as_ref())?;
+        }
         job.pick_foci()?;
         Ok(job)
     }
@@ -423,6 +428,7 @@ impl Job {
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
+            meshes: &self.meshes,
             background: self.backdrop(shot),
             objects: self.objects.inputs(shot),
         }

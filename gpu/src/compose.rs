@@ -34,6 +34,9 @@ pub(crate) fn shader(
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
+    if !shot.meshes.is_empty() {
+        return Err(GpuError::Missing { what: "meshes", key: "mesh" });
+    }
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
     // The field and its rays.

@@ -8,6 +8,7 @@ pub mod dot_colors;
 pub mod field;
 pub mod interactive_volume_illustration;
 pub mod labels;
+mod mesh;
 pub mod number;
 pub mod ray;
 pub mod shading;

@@ -21,6 +21,7 @@ pub mod marks;
 pub mod math;
 pub mod measured;
 pub mod memory;
+pub mod mesh;
 mod nearest;
 pub mod other_grid;
 pub mod phantom;

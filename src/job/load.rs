@@ -8,6 +8,7 @@ use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::file::Given;
 use drypoint_scene::memory;
+use drypoint_scene::mesh::{self, TriangleMesh};
 use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
@@ -69,6 +70,25 @@ pub(super) fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Vol
         Some(Axis::Volume(path)) => read::read(path, None).map_err(|error| failures.push(Failure::from(error))).ok(),
         _ => None,
     })
+}
+
+/// Reads the meshes of a scene and moves them to their places. Errors go to `failures`.
+pub(super) fn meshes(scene: &Scene, failures: &mut Vec<Failure>) -> Vec<TriangleMesh> {
+    let mut meshes = Vec::with_capacity(scene.meshes.len());
+    for (i, table) in scene.meshes.iter().enumerate() {
+        let read = mesh::read::read(&table.file).map_err(|error| {
+            let place = format!("{}, {}", table.file.display(), scene.given.position(&format!("mesh[{i}].file")));
+            Failure::new(&error, place, error.remedy())
+        });
+        let placed = read.and_then(|mesh| {
+            let map = table.motion.map(mesh.centre());
+            let mesh = if table.motion.is_moved() { mesh.moved(&map) } else { Ok(mesh) };
+            let key = format!("mesh[{i}]");
+            mesh.map_err(|fault| Failure::new(fault, scene.given.position(&key), "move or scale the mesh less"))
+        });
+        meshes.extend(placed.map_err(|failure| failures.push(failure)).ok());
+    }
+    meshes
 }
 
 /// Returns the names of the nodes' styles.

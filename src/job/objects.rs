@@ -39,16 +39,13 @@ struct ObjectPart {
 }
 
 impl Objects {
-    /// Loads the objects of a scene, whose volume is loaded. `automatic` is the picture's function as the scene gives it, for
+    /// Loads the objects of a job, of which everything else is loaded. `automatic` is the picture's function as the scene gives it, for
     /// objects with data of their own: an automatic one is found from these.
     ///
     /// # Errors
     /// Data that cannot be read, and what each part of a picture of its own could be refused for.
-    pub(super) fn load(
-        scene: &Scene,
-        volume: &Arc<Volume>,
-        automatic: Option<&Transfer>,
-    ) -> Result<Self, Failures> {
+    pub(super) fn load(main: &Job, automatic: Option<&Transfer>) -> Result<Self, Failures> {
+        let (scene, volume) = (&main.scene, &main.volume);
         let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
         let mut failures = Vec::new();
         for (i, object) in scene.objects.iter().enumerate() {
@@ -66,7 +63,10 @@ impl Objects {
         // Selections, and what only voxels can tell of them.
         let (mut selections, mut facts) = (Vec::new(), Vec::new());
         for (i, object) in scene.objects.iter().enumerate() {
-            let selection = selection(scene, (i, object), data(i), &mut failures);
+            let selection = match object.strokes {
+                Some(_) => Some(main.paint(i)?.selection),
+                None => selection(scene, (i, object), data(i), &mut failures),
+            };
             facts.push(selection_facts(object, selection.as_ref(), data(i), volume.anatomy()));
             selections.push(selection);
         }
@@ -104,7 +104,7 @@ impl Objects {
         main: VolumeFacts<'_>,
         range: [f64; 2],
     ) -> Result<Shot, Failure> {
-        if self.parts.is_empty() {
+        if scene.objects.is_empty() || self.parts.is_empty() {
             return Ok(shot);
         }
         let scenes: Vec<(Scene, Plan)> = self.parts.iter().map(|part| part.scene_of(scene)).collect();

@@ -16,6 +16,7 @@ mod halos;
 mod hash;
 mod layers;
 mod masks;
+mod meshes;
 mod mirror;
 mod offset;
 mod opacities;

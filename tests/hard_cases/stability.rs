@@ -60,6 +60,7 @@ static THEMES: &[&Theme] = &[
     &crate::borders::THEME,
     &crate::small::THEME,
     &crate::masks::THEME,
+    &crate::meshes::THEME,
     &crate::empty::THEME,
     &crate::surfaces::THEME,
     &crate::stipples::THEME,

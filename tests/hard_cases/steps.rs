@@ -164,6 +164,7 @@ fn too_many_planes() -> f64 {
                     labels: None,
                     further: [None, None],
                     styles: &[],
+                    meshes: &[],
                     background: Backdrop::None,
                     objects: ObjectInputs::default(),
                 };

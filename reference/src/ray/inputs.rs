@@ -5,6 +5,7 @@ use crate::field::FieldError;
 use crate::transfer::NodesError;
 pub use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::style::Style;
 use drypoint_scene::volume::labels::LabelVolume;
 use drypoint_scene::volume::{Selection, Volume};
@@ -21,6 +22,8 @@ pub struct Inputs<'a> {
     /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names),
     /// then those that caps name, in the order of [`Clipping::styles`](drypoint_scene::shot::Clipping::styles).
     pub styles: &'a [Style],
+    /// The meshes of the shot, in its order, in the world ([VS-12]).
+    pub meshes: &'a [TriangleMesh],
     /// The background.
     pub background: Backdrop<'a>,
     /// The data of objects; by default of none.

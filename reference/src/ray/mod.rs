@@ -18,6 +18,7 @@ mod prepare;
 mod prepared;
 mod prepared_combination;
 mod prepared_halos;
+mod prepared_meshes;
 mod prepared_surface;
 mod refinement;
 mod render;

@@ -7,6 +7,7 @@ use super::lattice::{MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
 use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
+use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, Shader};
@@ -86,6 +87,7 @@ pub(super) fn prepare<'a, R: Real>(
         cells,
         lines: None,
         surface,
+        meshes: PreparedMeshes::new(&shot.meshes, inputs.meshes, volume.grid(), counts),
         halos,
         stop_at: R::from_f64(shot.stop_at),
         encode,
@@ -241,6 +243,9 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Resu
     }
     if let (Some(prepared), Some(surface)) = (&mut prepared.surface, &shot.surface) {
         prepared.lit = Lit::new(&surface.lit);
+    }
+    if let Some(meshes) = &mut prepared.meshes {
+        meshes.turn(&shot.meshes);
     }
     prepared.view = shot.view.clone();
     map_funnels(prepared, &mut Counts::default());

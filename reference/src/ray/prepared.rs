@@ -5,6 +5,7 @@ use super::cell_mask::CellMask;
 use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
 use super::lattice::IndexRay;
+use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::{EyeAxes, PreparedObject};
 use crate::number::Real;
@@ -27,6 +28,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.
     pub(super) surface: Option<PreparedSurface<R>>,
+    /// Opaque meshes; none: none.
+    pub(super) meshes: Option<PreparedMeshes<'v, R>>,
     /// Halos; none: none.
     pub(super) halos: Option<PreparedHalos<'v>>,
     /// A at which a ray ends ([RAY-2]).

@@ -211,7 +211,7 @@ impl SelectionParams {
         Self {
             membership: match &table.value {
                 Some(pairs) => Membership::Value(pairs.clone()),
-                None if table.selection.is_none() && table.label.is_none() => Membership::Everything,
+                None if table.selection.is_none() && table.label.is_none() && table.strokes.is_none() => Membership::Everything,
                 None => Membership::Voxels,
             },
             index_box: facts.index_box,

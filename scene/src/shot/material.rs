@@ -194,6 +194,13 @@ impl Illumination {
         };
         Self { lighting, silhouette: offset(surface.silhouette), view_opacity: 0.0 }
     }
+
+    /// Of meshes: Blinn–Phong, with the light and the constants of `[shading]` or their defaults.
+    pub(super) fn of_mesh(scene: &Scene, view: &View) -> Self {
+        let shading = scene.shading.clone().unwrap_or_default();
+        let light = shading.light.unwrap_or(scene.light);
+        Self { lighting: Lighting::Phong(PhongParams::new(&shading, light, view)), ..Self::FLAT }
+    }
 }
 
 /// The offset of a table of silhouettes.

@@ -9,6 +9,7 @@ mod combination;
 pub mod halo;
 mod lattice;
 mod material;
+mod mesh;
 mod opaque_surface;
 mod query;
 mod reconstruction;
@@ -31,6 +32,7 @@ pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, LightingParams, LightingSource, Material, PhongParams,
     StyleParams, ToonParams,
 };
+pub use mesh::MeshParams;
 pub use opaque_surface::OpaqueSurface;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
@@ -62,6 +64,8 @@ pub struct Shot {
     pub combination: Option<Combination>,
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
+    /// Opaque meshes ([VS-12]).
+    pub meshes: Vec<MeshParams>,
     /// Clip planes ([RAY-8]).
     pub clipping: Clipping,
     /// Volumetric halos ([HALO-1]).
@@ -205,6 +209,7 @@ impl Shot {
             objects: [object],
             combination: None,
             surface,
+            meshes: MeshParams::all(scene, &view),
             blend_space: scene.picture.blend_space,
             background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),

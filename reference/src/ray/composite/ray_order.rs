@@ -1,7 +1,7 @@
 //! Ray order: one ray after the other, each to its end.
 
 use super::object_ray::ObjectRay;
-use super::path::{self, Step};
+use super::path::{self, End, Step};
 use super::ray_state::RayState;
 use crate::field::Sampler;
 use crate::number::Real;
@@ -9,7 +9,7 @@ use crate::ray::brick_occupancy::RayIntervals;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::{self, Need, Needs};
 use crate::ray::tile_work::TileWork;
-use crate::surface::{Clipped, SurfaceHit};
+use crate::surface::Clipped;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragment;
 
@@ -62,11 +62,11 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         }
         let (object, ray) = (&self.prepared.object, &self.evaluator.ray);
         let visits = |boxes| ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes));
-        let hit = self.surface_hit();
+        let end = self.end();
         if self.prepared.surface.as_ref().is_some_and(|surface| surface.alone) {
-            path::steps(ray, std::iter::empty(), lines, hit, steps);
+            path::steps(ray, std::iter::empty(), lines, end, steps);
         } else {
-            path::steps(ray, visits(boxes), lines, hit, steps);
+            path::steps(ray, visits(boxes), lines, end, steps);
         }
     }
 
@@ -86,18 +86,21 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         let places = (background.iter().copied(), ray.inside(object.ends));
         self.objects = ObjectRay::new(self.prepared, point, places, counts).map(Box::new);
         let visits = self.objects.as_ref().map_or(background, |objects| objects.visits());
-        path::steps(&ray, visits.into_iter(), lines, self.surface_hit(), steps);
+        path::steps(&ray, visits.into_iter(), lines, self.end(), steps);
     }
 
-    /// The place where the ray meets the iso-surface.
-    fn surface_hit(&self) -> Option<SurfaceHit> {
+    /// The place where the ray meets the iso-surface or a mesh.
+    fn end(&self) -> Option<End> {
         let (prepared, ray) = (self.prepared, &self.evaluator.ray);
         let object = &prepared.object;
-        let surface = prepared.surface.as_ref()?;
         let near = prepared.near_of(ray);
-        let mask = prepared.object.volume.mask();
-        let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
-        let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
-        surface.roots.first_left(sampler, mask, ray.line(), range, clipped)
+        let on_surface = prepared.surface.as_ref().and_then(|surface| {
+            let mask = object.volume.mask();
+            let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
+            let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
+            surface.roots.first_left(sampler, mask, ray.line(), range, clipped)
+        });
+        let on_mesh = prepared.meshes.as_ref().and_then(|meshes| meshes.nearest(ray, near));
+        End::nearer(on_surface, on_mesh)
     }
 }

@@ -6,6 +6,7 @@ use super::object_ray::{ObjectRay, Together};
 use super::path::Step;
 use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
+use crate::mesh::MeshHit;
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;
 use crate::ray::lattice::IndexRay;
@@ -96,6 +97,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
                 self.meet_surface(hit, tint, counts);
                 false
             }
+            Step::Mesh { hit, .. } => {
+                self.meet_mesh(&hit, tint);
+                false
+            }
         }
     }
 
@@ -176,6 +181,19 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.front.accumulator.end(rgb);
         if prepared.collects {
             self.add_to_layers(R::ONE, hit.t, surface.roots.iso(), &attributes);
+        }
+    }
+
+    /// Composites a mesh, of opacity 1, at its own depth. It has no value, gradient or curvature: in layers they are 0.
+    #[inline(never)]
+    fn meet_mesh(&mut self, hit: &MeshHit, tint: Option<&Tint>) {
+        let prepared = self.prepared;
+        let Some(meshes) = &prepared.meshes else { return };
+        let (normal, rgb) = meshes.seen(hit, self.evaluator.dirs.v);
+        self.front.accumulator.end(tinted(self.in_blend_space(rgb), tint));
+        if prepared.collects {
+            let attributes = SampleAttributes { normal, ..SampleAttributes::neutral() };
+            self.add_to_layers(R::ONE, hit.t, 0.0, &attributes);
         }
     }
 

@@ -5,6 +5,7 @@ mod clip;
 mod contours;
 mod halo;
 mod hatching;
+mod mesh;
 mod object;
 mod outlines;
 mod pen;
@@ -48,7 +49,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 20] = [
+static ALL: [Rules; 21] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -69,6 +70,7 @@ static ALL: [Rules; 20] = [
     hatching::RULES,
     outlines::RULES,
     surface::RULES,
+    mesh::RULES,
 ];
 
 /// The rules of the tables of a scene, those of a list of tables once for each item.

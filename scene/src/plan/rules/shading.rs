@@ -42,10 +42,10 @@ pub(super) const RULES: Rules = Rules {
     ..Rules::new("shading")
 };
 
-/// Whether the scene has an iso-surface that is lit.
+/// Whether the scene has an iso-surface or a mesh that is lit.
 pub(super) fn lit_surface(scene: &Scene) -> bool {
     let lit = |look| matches!(look, SurfaceLook::Phong | SurfaceLook::Toon);
-    scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
+    !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
 }
 
 /// Whether its transfer function has colours, which light falls on.
@@ -61,7 +61,8 @@ pub(super) fn lit(scene: &Scene) -> bool {
 /// Which keys say nothing although something is lit.
 fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     let regular = is_regular(scene);
-    let glossy = scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
+    let glossy = !scene.meshes.is_empty()
+        || scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
     if !glossy {
         idle_constants(shading, regular, idle);
     } else if shading.specular == 0.0 {

@@ -43,6 +43,7 @@ impl Scene {
             hatching: None,
             outlines: None,
             surface: None,
+            meshes: Vec::new(),
             ..self.clone()
         };
         let own = match role {
@@ -69,6 +70,11 @@ impl Scene {
             (rest.is_empty() || rest.starts_with(['.', '['])).then(|| format!("{outer}{rest}"))
         });
         outer.unwrap_or_else(|| key.to_owned())
+    }
+
+    /// The scene of the background: without objects.
+    pub fn of_background(&self) -> Self {
+        Self { objects: Vec::new(), combine: None, intersections: Vec::new(), ..self.clone() }
     }
 
     /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
