@@ -34,6 +34,9 @@ pub(crate) fn shader(
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
+    if shot.combination.is_some() {
+        return Err(GpuError::Missing { what: "objects", key: "object" });
+    }
     if !shot.meshes.is_empty() {
         return Err(GpuError::Missing { what: "meshes", key: "mesh" });
     }
