@@ -58,9 +58,7 @@ use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
-use load::{
-    background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles,
-};
+use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles};
 use objects::Objects;
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
@@ -273,7 +271,21 @@ impl Job {
             }
         };
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, meshes, background, objects: Objects::default() };
+        let mut job = Self {
+            scene,
+            plan,
+            volume,
+            counts,
+            target,
+            view,
+            function,
+            labels,
+            further,
+            styles,
+            meshes,
+            background,
+            objects: Objects::default(),
+        };
         if job.draws_volume() && !job.scene.objects.is_empty() {
             job.objects = Objects::load(&job, automatic.as_ref())?;
         }

@@ -4,7 +4,7 @@ use super::{Job, RenderTarget, is_integer, plan_for, shot_failure};
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
 use drypoint_output::read::read_intersection_picture;
-use drypoint_reference::ray::{Inputs, ObjectInputs};
+use drypoint_reference::ray::ObjectInputs;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::plan::Plan;
@@ -122,9 +122,11 @@ impl Objects {
 
     /// Returns the data that a shot with the objects names.
     pub(super) fn inputs(&self, shot: &Shot) -> ObjectInputs<'_> {
-        let Some(combination) = &shot.combination else { return ObjectInputs::default() };
+        // A part is a picture without objects.
+        let combination = shot.combination.as_ref().filter(|_| !self.parts.is_empty());
+        let Some(combination) = combination else { return ObjectInputs::default() };
         ObjectInputs {
-            parts: self.parts.iter().map(|part| part.inputs(shot)).collect(),
+            parts: self.parts.iter().map(|part| part.job.inputs(shot)).collect(),
             selections: self.selections.iter().map(Option::as_ref).collect(),
             pictures: combination.intersections.iter().map(|table| self.pictures[table.table].as_ref()).collect(),
         }
@@ -144,10 +146,6 @@ impl ObjectPart {
         plan.settle(&of_part, is_integer(&self.job.volume));
         (of_part, plan)
     }
-
-    fn inputs(&self, shot: &Shot) -> Inputs<'_> {
-        self.job.inputs(shot)
-    }
 }
 
 /// The selection volume of an object; none if it is one without.
@@ -160,10 +158,10 @@ fn selection(
     let at = |key: &str| scene.given.position(&format!("object[{i}].{key}"));
     let no_room = |no_room, key| Failure::new(format!("the selection needs {no_room}"), at(key), "select less");
     if let Some(path) = &object.selection {
-        let volume = read::read(path, None).map_err(|error| Failure::new(error.what(), at("selection"), error.remedy()));
-        let selection = volume.and_then(|volume| {
-            Selection::from_volume(&volume).map_err(|error| no_room(error, "selection"))
-        });
+        let volume =
+            read::read(path, None).map_err(|error| Failure::new(error.what(), at("selection"), error.remedy()));
+        let selection =
+            volume.and_then(|volume| Selection::from_volume(&volume).map_err(|error| no_room(error, "selection")));
         return selection.map_err(|failure| failures.push(failure)).ok();
     }
     let keys = object.label.as_ref()?;

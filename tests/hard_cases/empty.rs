@@ -147,5 +147,10 @@ fn made(scene: &Scene, volume: &Volume) -> Result<(), ()> {
     let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
     let shot = Shot::resolve(scene, &plan, facts, Arc::new(function), view).map_err(|_| ())?;
     let (labels, further, styles) = (None, [None, None], &[][..]);
-    Renderer::new(&shot, Inputs { volume, labels, further, styles, meshes: &[], background, objects: ObjectInputs::default() }).map(drop).map_err(|_| ())
+    Renderer::new(
+        &shot,
+        Inputs { volume, labels, further, styles, meshes: &[], background, objects: ObjectInputs::default() },
+    )
+    .map(drop)
+    .map_err(|_| ())
 }

@@ -1,8 +1,8 @@
 //! Pictures read from files, our own and other renderers' ([GPU-5]).
 
 mod background;
-mod intersection_picture;
 mod exr;
+mod intersection_picture;
 mod png;
 
 use crate::OutputError;

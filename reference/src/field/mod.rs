@@ -150,7 +150,9 @@ impl<'v, R: Real> Field<'v, R> {
                 .then(|| Regression::new(grid)),
             second: match how.hessian {
                 _ if rung < Rung::Hessian => Second::NotPrepared,
-                HessianEstimator::Gaussian => Second::Gaussian(Arc::new(hessian::gaussian::smoothed(&stencils, &smoothed))),
+                HessianEstimator::Gaussian => {
+                    Second::Gaussian(Arc::new(hessian::gaussian::smoothed(&stencils, &smoothed)))
+                }
                 HessianEstimator::Analytic => Second::Analytic,
                 HessianEstimator::Auto | HessianEstimator::Central => Second::Central,
             },

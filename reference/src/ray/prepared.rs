@@ -2,9 +2,9 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
+use super::lattice::IndexRay;
 use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
-use super::lattice::IndexRay;
 use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::{EyeAxes, PreparedObject};

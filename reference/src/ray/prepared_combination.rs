@@ -1,10 +1,10 @@
 //! The objects of a picture prepared for its samples ([VS-2] … [VS-4], [VS-7]).
 
-use super::inputs::{Inputs, RenderError};
 use super::composite::depth_of_part;
+use super::inputs::{Inputs, RenderError};
 use super::lattice::IndexRay;
-use super::prepared::Prepared;
 use super::prepare::{Camera, Fields, Place, prepare_object};
+use super::prepared::Prepared;
 use super::sample::PreparedObject;
 use crate::field::Field;
 use crate::number::{Mat3, Real};
@@ -192,9 +192,10 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         };
         let in_picture = [0, 1].map(|a| (point[a].max(0.0) as usize).min(prepared.view.size[a] - 1));
         let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|map| map.cuts(in_picture));
-        self.selections.iter().any(|s| {
-            through(&s.here, s.index_box) || s.there.as_ref().is_some_and(|grid| through(grid, s.index_box))
-        }) || self.cutaways.iter().any(in_funnel)
+        self.selections
+            .iter()
+            .any(|s| through(&s.here, s.index_box) || s.there.as_ref().is_some_and(|grid| through(grid, s.index_box)))
+            || self.cutaways.iter().any(in_funnel)
     }
 
     /// Takes over what depends on the camera.
@@ -203,20 +204,10 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             prepared.object.shader.turn(&part.drawn, view);
         }
     }
-
-    /// The grid of the memberships of a part where it is drawn.
-    pub(super) fn selection_grid(&self, part: &PreparedPart<'_, R>) -> &Grid {
-        let selection = &self.selections[part.selection];
-        selection.there.as_ref().filter(|_| part.is_moved).unwrap_or(&selection.here)
-    }
 }
 
 impl<'v, R: Real> PreparedSelection<'v, R> {
-    fn new(
-        params: &SelectionParams,
-        here: Grid,
-        membership: PreparedMembership<'v, R>,
-    ) -> Result<Self, RenderError> {
+    fn new(params: &SelectionParams, here: Grid, membership: PreparedMembership<'v, R>) -> Result<Self, RenderError> {
         let there = params.motion.map(|motion| placed(&here, Some(motion)).map_err(|_| RenderError::Motion));
         Ok(Self {
             membership,
@@ -246,8 +237,7 @@ impl<'v, R: Real> PreparedPart<'v, R> {
         let field = fields.of(volume, &part.drawn)?;
         let shows = part.drawn.skip_empty.then(|| Shows::new(&field, &part.drawn));
         let place = Place { grid, moved };
-        let object =
-            prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
+        let object = prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
         Ok(Self { object, selection: part.object, is_moved: motion.is_some(), is_of_background, shows })
     }
 

@@ -35,7 +35,8 @@ impl FunnelMap {
         let sums: Vec<[f64; 2]> =
             dilated.into_iter().map(|d| if d > f64::NEG_INFINITY { [1.0, d] } else { [0.0; 2] }).collect();
         let rows = smoothed_rows(size, &taps, &sums);
-        let columns = transposed([size[1], size[0]], &smoothed_rows([size[1], size[0]], &taps, &transposed(size, &rows)));
+        let columns =
+            transposed([size[1], size[0]], &smoothed_rows([size[1], size[0]], &taps, &transposed(size, &rows)));
         let pixel = |i: usize| {
             let [c, cd] = columns[(i / width + guard) * size[0] + i % width + guard];
             if c > LEAST { [c, cd / c] } else { [0.0; 2] }
@@ -81,7 +82,8 @@ fn dilated([width, height]: [usize; 2], radius: f64, depths: &[f64]) -> Vec<f64>
 /// Weights of a Gaussian at −⌊4σ⌋ … ⌊4σ⌋, of sum 1.
 fn taps(sigma: f64) -> Vec<f64> {
     let reach = (4.0 * sigma) as i64;
-    let weights: Vec<f64> = (-reach..=reach).map(|i| math::exp(-0.5 * (i as f64 / sigma) * (i as f64 / sigma))).collect();
+    let weights: Vec<f64> =
+        (-reach..=reach).map(|i| math::exp(-0.5 * (i as f64 / sigma) * (i as f64 / sigma))).collect();
     let sum: f64 = weights.iter().sum();
     weights.into_iter().map(|w| w / sum).collect()
 }

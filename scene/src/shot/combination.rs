@@ -193,7 +193,14 @@ impl Shot {
                 IntersectionColor::Color([r, g, b, opacity]) => IntersectionPaint::Color([r, g, b], opacity),
                 IntersectionColor::Picture(_) => IntersectionPaint::Picture([here, facts[selection].range]),
             };
-            Some(Intersection { table: place_of_table, selection, ghost, color, opacity: table.opacity, swap: table.swap })
+            Some(Intersection {
+                table: place_of_table,
+                selection,
+                ghost,
+                color,
+                opacity: table.opacity,
+                swap: table.swap,
+            })
         };
         let combination = Combination {
             fuzzy: scene.combine.map_or(Fuzzy::Zadeh, |table| table.fuzzy),
@@ -211,7 +218,9 @@ impl SelectionParams {
         Self {
             membership: match &table.value {
                 Some(pairs) => Membership::Value(pairs.clone()),
-                None if table.selection.is_none() && table.label.is_none() && table.strokes.is_none() => Membership::Everything,
+                None if table.selection.is_none() && table.label.is_none() && table.strokes.is_none() => {
+                    Membership::Everything
+                }
                 None => Membership::Voxels,
             },
             index_box: facts.index_box,

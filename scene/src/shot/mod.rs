@@ -23,8 +23,8 @@ pub use crate::tables::{
 };
 pub use clipping::{Cap, Clipping};
 pub use combination::{
-    Combination, Cutaway, Intersection, IntersectionPaint, Membership, Part, PartFacts, SelectionFacts, SelectionParams,
-    placed,
+    Combination, Cutaway, Intersection, IntersectionPaint, Membership, Part, PartFacts, SelectionFacts,
+    SelectionParams, placed,
 };
 pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};

@@ -73,12 +73,9 @@ fn an_intersection_by_hand() {
     near(with("color = \"blue\"\nopacity = \"in\"\n"), ([4.0 / 7.0, 2.0 / 7.0, 1.0 / 7.0], 0.5));
     // "out" a(1 − b) = ⅜; exchanged b(1 − a) = ⅛.
     near(with("color = \"blue\"\nopacity = \"out\"\n"), ([4.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0], 0.5));
-    near(
-        with("color = \"blue\"\nopacity = \"out\"\nswap = true\n"),
-        ([4.0 / 7.0, 2.0 / 7.0, 1.0 / 7.0], 0.5),
-    );
-    // The mean colour (½ red + ¼ green)/¾, which changes no colour here.
-    near(with("opacity = \"plus\"\n"), ([2.0 / 3.0, 1.0 / 3.0, 0.0], 0.75));
+    near(with("color = \"blue\"\nopacity = \"out\"\nswap = true\n"), ([4.0 / 7.0, 2.0 / 7.0, 1.0 / 7.0], 0.5));
+    // The mean colour (½ red + ¼ green)/¾ by ¾, and ¼ of each that is left.
+    near(with("opacity = \"plus\"\n"), ([0.6, 0.4, 0.0], 0.75));
     // A translucent colour: max · ½ = ¼. S min(½, ¾), G min(¼, ¾).
     near(with("color = \"#0000ff80\"\n"), {
         let v = 0.5 * 128.0 / 255.0;

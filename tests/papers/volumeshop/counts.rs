@@ -4,7 +4,8 @@ use super::{LIT, SHELLS, drawn, layer, scene_of};
 use drypoint::scene::picture::LayerKind;
 
 fn counted(rest: &str) -> (Vec<f64>, u64) {
-    let text = scene_of(SHELLS, &format!("{LIT}{rest}")).replace("samples = 1\n", "samples = 1\nlayers = [\"beauty\", \"counts\"]\n");
+    let text = scene_of(SHELLS, &format!("{LIT}{rest}"))
+        .replace("samples = 1\n", "samples = 1\nlayers = [\"beauty\", \"counts\"]\n");
     let (picture, counts) = drawn(&text);
     (layer(&picture, LayerKind::Counts)[0].clone(), counts.samples)
 }

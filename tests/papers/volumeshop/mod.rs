@@ -41,9 +41,8 @@ pub(super) fn pixels(picture: &Picture) -> Vec<[f64; 4]> {
 
 /// The largest difference of two pictures.
 pub(super) fn difference(a: &Picture, b: &Picture) -> f64 {
-    let largest = |most: f64, (a, b): (&[f64; 4], &[f64; 4])| {
-        a.iter().zip(b).fold(most, |most, (a, b)| most.max((a - b).abs()))
-    };
+    let largest =
+        |most: f64, (a, b): (&[f64; 4], &[f64; 4])| a.iter().zip(b).fold(most, |most, (a, b)| most.max((a - b).abs()));
     pixels(a).iter().zip(&pixels(b)).fold(0.0, largest)
 }
 

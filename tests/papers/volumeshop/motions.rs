@@ -28,7 +28,11 @@ fn a_moved_object_is_seen_as_by_a_moved_camera() {
     let about = "center = [14, 15, 15]\n";
     for (motion, [eye, up, target], back) in [
         // Moved by (2, 3, −1).
-        ("move = [2, 3, -1]".to_string(), ["[-30, 5, 20]", "[0, 0, 1]", "[14, 15, 15]"], ["[-32, 2, 21]", "[0, 0, 1]", "[12, 12, 16]"]),
+        (
+            "move = [2, 3, -1]".to_string(),
+            ["[-30, 5, 20]", "[0, 0, 1]", "[14, 15, 15]"],
+            ["[-32, 2, 21]", "[0, 0, 1]", "[12, 12, 16]"],
+        ),
         // Turned by 90° about z through the target: (x, y) → (−y, x) of the offsets. The camera turns back.
         (
             format!("rotate = {{ axis = [0, 0, 2], angle = 90 }}\n{about}"),
@@ -71,7 +75,14 @@ fn a_huge_copy_has_normals() {
         let large = camera.replace("height = 30", "height = 3e7");
         let camera = if scale == "1" { camera.to_string() } else { large };
         let step = if scale == "1" { "0.5" } else { "5e5" };
-        scene_of(SHELLS, &format!("{}{camera}[sampling]\nstep = {step}\nreference_length = {}\n{rest}", LOOKS[0], if scale == "1" { "1" } else { "1e6" }))
+        scene_of(
+            SHELLS,
+            &format!(
+                "{}{camera}[sampling]\nstep = {step}\nreference_length = {}\n{rest}",
+                LOOKS[0],
+                if scale == "1" { "1" } else { "1e6" }
+            ),
+        )
     };
     let (plain, _) = drawn(&text("1", ""));
     let clear = "[object.ghost.transfer]\nkind = \"regular\"\nnodes = [{ at = 0, color = \"red\", opacity = 0 }]\n";

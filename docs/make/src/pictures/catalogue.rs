@@ -31,8 +31,10 @@ impl Source {
 }
 
 /// A figure of several scenes: its room, its name, its parts, pixels along the side of a cell, and cells in a row.
-const SHEETS: [(&str, &str, &str, usize, usize); 7] = [
+const SHEETS: [(&str, &str, &str, usize, usize); 9] = [
+    ("volumeshop", "figure_1", "ab", 440, 2),
     ("volumeshop", "figure_5", "abcd", 440, 2),
+    ("volumeshop", "figure_6", "abc", 320, 3),
     ("volumetric_halos", "figure_5", "abcdef", 320, 3),
     ("volumetric_halos", "figure_6", "abcd", 330, 2),
     ("volumetric_halos", "figure_7", "abc", 400, 3),
@@ -86,7 +88,7 @@ pub(super) fn all() -> Result<Vec<DocPicture>, String> {
 fn has_picture(room: &str, stem: &str) -> bool {
     let on_a_sheet = match room {
         "volumetric_halos" => stem.starts_with("figure_") && !LARGE_PARTS.contains(&stem),
-        "volumeshop" => stem.starts_with("figure_5_"),
+        "volumeshop" => ["figure_1_", "figure_5_", "figure_6_"].iter().any(|sheet| stem.starts_with(sheet)),
         "style_transfer_functions" => stem.starts_with("figure_1_") || stem.ends_with("_regular"),
         _ => false,
     };

@@ -3,18 +3,22 @@
 
 use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
+use crate::ray::cell_mask::CellMask;
 use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_combination::{
     PreparedCombination, PreparedIntersection, PreparedMembership, PreparedPart, PreparedSelection,
 };
-use crate::ray::sample::{Evaluator, Sample, SampleAttributes};
+use crate::ray::sample::{Evaluator, PreparedObject, Sample, SampleAttributes};
 use crate::volumeshop::far_side::through_box;
 use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersections};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, Fuzzy, IntersectionPaint};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::Ray;
+
+/// An evaluator of a field of any kernel.
+type FieldEvaluator<'p, 'v, R> = Evaluator<'p, 'v, R, Field<'v, R>>;
 
 /// No samples.
 const EMPTY: [i64; 2] = [1, 0];
@@ -24,6 +28,8 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
     combination: &'p PreparedCombination<'v, R>,
     selections: Vec<SelectionRay>,
     parts: Vec<PartRay<'p, 'v, R>>,
+    /// The background among objects. It decides on its kernel at every call: of code that combines there is one.
+    behind: FieldEvaluator<'p, 'v, R>,
     /// The samples at which the background can show something.
     background: Vec<[i64; 2]>,
     /// The samples in the background's box.
@@ -51,7 +57,7 @@ struct PlacedSelection {
 /// A part on a ray.
 struct PartRay<'p, 'v, R: Real> {
     part: &'p PreparedPart<'v, R>,
-    evaluator: Evaluator<'p, 'v, R, Field<'v, R>>,
+    evaluator: FieldEvaluator<'p, 'v, R>,
     /// The samples at which it can show something.
     range: [i64; 2],
 }
@@ -96,13 +102,15 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     ) -> Option<Self> {
         let combination = prepared.combination.as_ref()?;
         let pixel = prepared.view.ray(point[0], point[1]);
-        let selections: Vec<_> = combination.selections.iter().map(|s| SelectionRay::new(s, prepared, &pixel)).collect();
+        let selections: Vec<_> =
+            combination.selections.iter().map(|s| SelectionRay::new(s, prepared, &pixel)).collect();
         let part = |part: &'p PreparedPart<'v, R>| PartRay::new(part, &selections[part.selection], prepared, &pixel);
         let parts: Vec<_> = combination.parts.iter().map(part).collect();
         let found = vec![None; parts.len()];
         let cut_ends = Vec::new();
         let background = background.collect();
-        let mut ray = Self { combination, selections, parts, background, inside, cut_ends, found };
+        let behind = evaluator(&prepared.object, prepared, &pixel);
+        let mut ray = Self { combination, selections, parts, behind, background, inside, cut_ends, found };
         ray.cut_ends = (0..combination.cutaways.len()).map(|i| ray.cut_end(i, prepared, point, counts)).collect();
         let takes = |s: &SelectionRay| s.here.range[0] <= s.here.range[1];
         let is_met = ray.parts.iter().any(|part| part.range[0] <= part.range[1])
@@ -151,14 +159,9 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         parts.into_iter().filter(|[first, last]| first <= last)
     }
 
-    /// The sets at sample k together. `background` evaluates samples of the background.
-    pub(super) fn together<S: Sampler<R>>(
-        &mut self,
-        k: i64,
-        background: &mut Evaluator<'p, 'v, R, S>,
-        can_show: impl Fn([usize; 3]) -> bool,
-        counts: &mut Counts,
-    ) -> Option<Together<R>> {
+    /// The sets at sample k together.
+    #[inline(never)]
+    pub(super) fn together(&mut self, k: i64, prepared: &Prepared<'_, R>, counts: &mut Counts) -> Option<Together<R>> {
         let combination = self.combination;
         let fuzzy = combination.fuzzy;
         // The value of the background's volume here, which its pieces share; looked up at most once.
@@ -171,7 +174,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             let taken = self.selections.iter().zip(&combination.selections).filter(takes);
             let mut memberships = Vec::with_capacity(self.selections.len());
             for (ray, selection) in taken {
-                memberships.push(ray.here.membership(selection, k, || Some(here.sample(background, counts)?.s)));
+                memberships.push(ray.here.membership(selection, k, || Some(here.sample(&self.behind, counts)?.s)));
             }
             shares = Shares::beside(fuzzy, memberships.into_iter());
         }
@@ -180,10 +183,13 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let mut of_background = None;
         let is_gone = || self.cutaways_at(k).any(|gamma| gamma >= R::ONE);
         if shares.background > R::ZERO && self.background.iter().any(|&range| contains(range, k)) && !is_gone() {
-            let sample = here.sample(background, counts).filter(|sample| can_show(sample.at.cell));
+            let can_show = |cells: &CellMask, at: Sample<R>| cells.can_show(&prepared.object.field, at.at.cell);
+            let sample = here.sample(&self.behind, counts);
+            let sample = sample.filter(|at| prepared.cells.as_ref().is_none_or(|cells| can_show(cells, *at)));
             if let Some(sample) = sample
-                && let Some(((rgb, alpha), attributes)) = background.shaded_by_any(sample, counts)
+                && let Some(((rgb, alpha), attributes)) = self.behind.shaded_by_any(sample, counts)
             {
+                let background = &self.behind;
                 let enhancement = || {
                     let seen = background.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
                     background.object.shader.enhancement(&seen, &background.dirs)
@@ -207,7 +213,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             let ray = &self.selections[part.part.selection];
             let placed = if part.part.is_moved { &ray.there } else { &ray.here };
             let share = if selection.takes && !part.part.is_moved { shares.of_each } else { R::ONE };
-            *found = part.found(k, (selection, placed, share), &mut here, background, fuzzy, counts);
+            *found = part.found(k, (selection, placed, share), &mut here, &self.behind, fuzzy, counts);
         }
         let largest = self.largest(of_background.as_ref())?;
 
@@ -222,7 +228,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         if !combination.intersections.is_empty() {
             let mut taken = vec![R::ZERO; self.parts.len()];
             for intersection in &combination.intersections {
-                let meeting = self.meeting(intersection, of_background.as_ref(), background, counts);
+                let meeting = self.meeting(intersection, of_background.as_ref(), counts);
                 let Some(meeting) = meeting.filter(|set| set.mu > R::ZERO) else { continue };
                 let of_selection = &mut taken[intersection.params.selection];
                 *of_selection = fuzzy::union(fuzzy, *of_selection, meeting.mu);
@@ -251,18 +257,18 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let is_ghost = |part: &PartRay<'_, '_, R>| {
             !part.part.is_moved && self.combination.selections[part.part.selection].there.is_some()
         };
-        let in_order = of_parts.clone().filter(|(.., part)| !is_ghost(part)).chain(of_parts.filter(|(.., part)| is_ghost(part)));
+        let in_order =
+            of_parts.clone().filter(|(.., part)| !is_ghost(part)).chain(of_parts.filter(|(.., part)| is_ghost(part)));
         let all = in_order.map(|(i, found, _)| (i, found)).chain(background.map(|found| (None, found)));
         let largest = all.reduce(|most, next| if next.1.mu > most.1.mu { next } else { most });
         largest.map(|(part, found)| Largest { part, sample: found.sample, attributes: found.attributes })
     }
 
     /// The alternative set where a selection meets something (eq. 7).
-    fn meeting<S: Sampler<R>>(
+    fn meeting(
         &self,
         intersection: &PreparedIntersection<'_>,
         of_background: Option<&FoundPart<R>>,
-        background: &Evaluator<'p, 'v, R, S>,
         counts: &mut Counts,
     ) -> Option<ObjectSet<R>> {
         let (params, fuzzy) = (&intersection.params, self.combination.fuzzy);
@@ -275,15 +281,12 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let wins = selection.mu >= other.mu;
         let winner = if wins { selection } else { other };
         let attributes = winner.attributes;
-        let of_selection = self.parts[params.selection].evaluator.unlit(
-            selection.sample,
-            [selection.attributes, attributes],
-            counts,
-        );
+        let of_selection =
+            self.parts[params.selection].evaluator.unlit(selection.sample, [selection.attributes, attributes], counts);
         let asked = [other.attributes, attributes];
         let (c_2, alpha_2) = match params.ghost {
             Some(ghost) => self.parts[ghost].evaluator.unlit(other.sample, asked, counts),
-            None => background.unlit(other.sample, asked, counts),
+            None => self.behind.unlit(other.sample, asked, counts),
         };
         let of_other = (c_2, alpha_2 * other.faded);
         // The opacity, and the colour.
@@ -305,7 +308,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let (rgb, alpha) = match (wins, params.ghost) {
             (true, _) => self.parts[params.selection].light((rgb, alpha), &attributes),
             (false, Some(ghost)) => self.parts[ghost].light((rgb, alpha), &attributes),
-            (false, None) => background.object.shader.light((rgb, alpha), &attributes, &background.dirs),
+            (false, None) => self.behind.object.shader.light((rgb, alpha), &attributes, &self.behind.dirs),
         };
         let both = fuzzy::intersection(fuzzy, other.weight, selection.weight);
         Some(ObjectSet { rgb, mu: fuzzy::intersection(fuzzy, both, alpha), shares: false })
@@ -314,12 +317,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     /// The first sample that a cutaway leaves: those before it lie before d ([VS-7]).
     fn cut_end(&mut self, cutaway: usize, prepared: &Prepared<'v, R>, point: [f64; 2], counts: &mut Counts) -> i64 {
         let cutaway = &self.combination.cutaways[cutaway];
-        let lattice = IndexRay::<R>::new(
-            &prepared.view.ray(point[0], point[1]),
-            &prepared.view,
-            &prepared.lattice,
-            &prepared.object.grid,
-        );
+        let lattice = self.behind.ray;
         let d = self.depth(cutaway.params.part, cutaway.params.cut, counts);
         let d = match &cutaway.funnel {
             None => d,
@@ -359,7 +357,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let gradient = object.moved.as_ref().map_or(attributes.gradient, |moved| moved.apply(attributes.gradient));
         let by = object.field.scale_exponent() - main_exponent;
         let scaled = |x: R| R::monotone([x], |[x]| drypoint_scene::math::scale_by_power_of_two(x, by));
-        attributes.gradient = if by == 0 { gradient } else { Vec3::new(scaled(gradient.x), scaled(gradient.y), scaled(gradient.z)) };
+        attributes.gradient =
+            if by == 0 { gradient } else { Vec3::new(scaled(gradient.x), scaled(gradient.y), scaled(gradient.z)) };
         let cut = part.evaluator.cut_at(largest.sample.k);
         Some(cut.map_or(attributes, |cut| cut.attributes(attributes)))
     }
@@ -389,7 +388,7 @@ struct Here<R> {
 }
 
 impl<R: Real> Here<R> {
-    fn sample<S: Sampler<R>>(&mut self, evaluator: &Evaluator<'_, '_, R, S>, counts: &mut Counts) -> Option<Sample<R>> {
+    fn sample(&mut self, evaluator: &FieldEvaluator<'_, '_, R>, counts: &mut Counts) -> Option<Sample<R>> {
         if !self.is_inside {
             return None;
         }
@@ -398,11 +397,7 @@ impl<R: Real> Here<R> {
 }
 
 /// The sample of an evaluator's field on plane k; none where it is masked.
-fn look_up<R: Real, S: Sampler<R>>(
-    evaluator: &Evaluator<'_, '_, R, S>,
-    k: i64,
-    counts: &mut Counts,
-) -> Option<Sample<R>> {
+fn look_up<R: Real>(evaluator: &FieldEvaluator<'_, '_, R>, k: i64, counts: &mut Counts) -> Option<Sample<R>> {
     let at = evaluator.sampler.place(evaluator.ray.position(k));
     if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
         counts.masked += 1;
@@ -452,11 +447,9 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         prepared: &'p Prepared<'v, R>,
         pixel: &Ray,
     ) -> Self {
-        let (view, object) = (&prepared.view, &part.object);
-        let ray = IndexRay::<R>::new(pixel, view, &prepared.lattice, &object.grid);
-        let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
-        let dirs = object.shader.view_dirs(v, v_eye);
-        let evaluator = Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes);
+        let object = &part.object;
+        let evaluator = evaluator(object, prepared, pixel);
+        let ray = evaluator.ray;
         let placed = if part.is_moved { &selection.there } else { &selection.here };
         let [first, last] = ray.left_by(&object.clip.planes, object.ends, ray.inside(object.ends));
         let range = [first.max(placed.range[0]), last.min(placed.range[1])];
@@ -464,12 +457,12 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     }
 
     /// Its set at sample k: none where it has no members.
-    fn found<S: Sampler<R>>(
+    fn found(
         &mut self,
         k: i64,
         (selection, placed, share): (&PreparedSelection<'_, R>, &PlacedSelection, R),
         here: &mut Here<R>,
-        background: &Evaluator<'_, '_, R, S>,
+        background: &FieldEvaluator<'_, '_, R>,
         fuzzy: Fuzzy,
         counts: &mut Counts,
     ) -> Option<FoundPart<R>> {
@@ -493,11 +486,11 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     }
 
     /// Its value at sample k: that of the background where both are one volume at one place.
-    fn look_up<S: Sampler<R>>(
+    fn look_up(
         &self,
         k: i64,
         here: &mut Here<R>,
-        background: &Evaluator<'_, '_, R, S>,
+        background: &FieldEvaluator<'_, '_, R>,
         counts: &mut Counts,
     ) -> Option<Sample<R>> {
         if !self.part.can_show(self.evaluator.sampler.place(self.evaluator.ray.position(k)).cell) {
@@ -549,6 +542,19 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     fn light(&self, unlit: ([R; 3], R), attributes: &SampleAttributes<R>) -> ([R; 3], R) {
         self.part.object.shader.light(unlit, attributes, &self.evaluator.dirs)
     }
+}
+
+/// The evaluator of an object on a ray.
+fn evaluator<'p, 'v, R: Real>(
+    object: &'p PreparedObject<'v, R>,
+    prepared: &Prepared<'_, R>,
+    pixel: &Ray,
+) -> FieldEvaluator<'p, 'v, R> {
+    let view = &prepared.view;
+    let ray = IndexRay::<R>::new(pixel, view, &prepared.lattice, &object.grid);
+    let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
+    let dirs = object.shader.view_dirs(v, v_eye);
+    Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes)
 }
 
 /// Whether a sample lies in a range.

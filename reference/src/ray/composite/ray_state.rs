@@ -225,14 +225,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         tint: Option<&Tint>,
         counts: &mut Counts,
     ) -> bool {
-        let prepared = self.prepared;
-        let can_show = |cell| prepared.cells.as_ref().is_none_or(|cells| cells.can_show(&prepared.object.field, cell));
         while next <= last {
             let ([first, end], is_mixed) = objects.run_from([next, last]);
             if is_mixed {
                 for k in first..=end {
                     let before = counts.samples;
-                    let together = objects.together(k, &mut self.evaluator, can_show, counts);
+                    let together = objects.together(k, self.prepared, counts);
                     self.samples += std::mem::replace(&mut counts.samples, before) - before;
                     let Some(together) = together else { continue };
                     self.composite_together(objects, k, &together, tint, counts);

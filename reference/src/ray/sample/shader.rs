@@ -199,12 +199,7 @@ impl<R: Real> Shader<R> {
 
 impl<R: Real> Illustrated<R> {
     #[inline(never)]
-    fn light(
-        &self,
-        (c_u, alpha_u): ([R; 3], R),
-        attributes: &SampleAttributes<R>,
-        dirs: &ViewDirs<R>,
-    ) -> ([R; 3], R) {
+    fn light(&self, (c_u, alpha_u): ([R; 3], R), attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
         let (rgb, alpha) = self.lit.shade(c_u, alpha_u, attributes, dirs);
         let alpha = match (self.view_opacity, attributes.normal) {
             // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.

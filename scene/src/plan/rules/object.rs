@@ -144,12 +144,17 @@ mod tests {
         assert!(!plan.needs_anywhere(Quantity::Gradient));
         let text = plan.to_string();
         assert!(text.contains("knee: shading") && text.contains("object[0].shading (line 9)"), "{text}");
-        assert!(text.contains("selections") && !text.contains("moved selections") && !text.contains("cut depths"), "{text}");
+        assert!(
+            text.contains("selections") && !text.contains("moved selections") && !text.contains("cut depths"),
+            "{text}"
+        );
     }
 
     #[test]
     fn only_what_acts_is_asked_for() {
-        let moved = plan("[[object]]\nmove = [1, 0, 0]\nghosting = 0.5\nfunnel = \"3 px\"\n[[intersection]]\nobject = \"object 0\"\n");
+        let moved = plan(
+            "[[object]]\nmove = [1, 0, 0]\nghosting = 0.5\nfunnel = \"3 px\"\n[[intersection]]\nobject = \"object 0\"\n",
+        );
         let text = moved.to_string();
         for pass in ["moved selections", "cut depths", "funnels", "intersections"] {
             assert!(text.contains(pass), "{pass}\n{text}");

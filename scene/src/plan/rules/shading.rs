@@ -61,8 +61,8 @@ pub(super) fn lit(scene: &Scene) -> bool {
 /// Which keys say nothing although something is lit.
 fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     let regular = is_regular(scene);
-    let glossy = !scene.meshes.is_empty()
-        || scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
+    let glossy =
+        !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
     if !glossy {
         idle_constants(shading, regular, idle);
     } else if shading.specular == 0.0 {

@@ -1,6 +1,8 @@
 //! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
 
-use crate::tables::{GhostTable, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
+use crate::tables::{
+    GhostTable, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
+};
 use serde::Serialize;
 
 /// A part of an object.
@@ -112,11 +114,7 @@ impl Scene {
 }
 
 /// The tables of a part's scene that its object or its ghost says, each with the key that it has as the picture's.
-fn tables_of(
-    object: usize,
-    table: &ObjectTable,
-    ghost: Option<&GhostTable>,
-) -> Vec<(String, &'static str)> {
+fn tables_of(object: usize, table: &ObjectTable, ghost: Option<&GhostTable>) -> Vec<(String, &'static str)> {
     let outer = |of_ghost: bool, of_object: bool, name: &'static str| match (of_ghost, of_object) {
         (true, _) => Some((format!("object[{object}].ghost.{name}"), name)),
         (false, true) => Some((format!("object[{object}].{name}"), name)),
