@@ -73,8 +73,8 @@ fn a_written_table_draws_its_preset() {
     let code = 1.0 / 65535.0;
     for preset in ["blinn-phong", "metal-contours", "gradient"] {
         folder.good(&format!("styles lighting --table {preset} --light -0.5,0.4,0.7 -o table.png"));
-        folder.write("preset.toml", &scene(&format!("preset = \"{preset}\"")));
-        folder.write("table.toml", &scene("table = \"table.png\""));
+        folder.write("preset.toml", scene(&format!("preset = \"{preset}\"")));
+        folder.write("table.toml", scene("table = \"table.png\""));
         folder.good("render preset.toml -o preset.exr");
         folder.good("render table.toml -o table.exr");
         folder.good(&format!("compare preset.exr table.exr --max {}", 32.0 * code));

@@ -13,15 +13,17 @@ const PARTS: usize = 4;
 /// The linear colour of the sphere.
 const COLOR: [f64; 3] = [0.62, 0.42, 0.28];
 
-/// α_u of the sphere and its |g|: eq. 8 makes it opaque where s_α = 0.
-const ALPHA_U: f64 = 0.5;
+/// α_u of the sphere and its |g|: eq. 8 makes it opaque where s_α is below 0.3.
+const ALPHA_U: f64 = 0.8;
+const MAGNITUDE: f64 = 0.5;
 
-/// The sphere's radius and the table's side, as shares of the picture's side.
+/// The sphere's radius, the table's side and the width of its frame, as shares of the picture's side.
 const RADIUS: f64 = 0.4;
-const TABLE: f64 = 0.29;
+const TABLE: f64 = 0.28;
+const FRAME: f64 = 0.005;
 
-/// The layer `beauty` of a square picture on white: a half transparent sphere, whose eye space is the light's space, at the
-/// upper right, and the table at the lower left, its red, green, blue and alpha as codes of a picture. Antialiased by
+/// The layer `beauty` of a square picture on white: a translucent sphere, whose eye space is the light's space, at the upper
+/// right, and the framed table at the lower left, its red, green, blue and alpha as codes of a picture. Antialiased by
 /// 4 × 4 samples a pixel.
 pub fn preview(params: &LightingParams, side: usize) -> Picture {
     let function = LightingFunction::new(params);
@@ -54,13 +56,16 @@ fn sample(function: &LightingFunction<f64>, x: f64, y: f64) -> [f64; 3] {
         let v = Vec3::new(0.0, 0.0, 1.0);
         let found = function.reflectance(Vec3::new(nx, ny, in_front.sqrt()), function.half_vector(v));
         let shown = found.color(COLOR).map(|c| c.min(1.0));
-        return over_white(shown, function.opacity(ALPHA_U, &found, 0.5));
+        return over_white(shown, function.opacity(ALPHA_U, &found, MAGNITUDE));
     }
-    // The table: N·L to the right, N·Ĥ upwards.
-    let [right, up] = [2.0 * x / TABLE - 1.0, 2.0 * (1.0 - y) / TABLE - 1.0];
-    if right <= 1.0 && up <= 1.0 {
-        let cell = function.at(right, up);
+    // The table in its frame: N·L to the right, N·Ĥ upwards.
+    let [right, up] = [x - FRAME, 1.0 - FRAME - y];
+    if [right, up].iter().all(|at| (0.0..=TABLE).contains(at)) {
+        let cell = function.at(2.0 * right / TABLE - 1.0, 2.0 * up / TABLE - 1.0);
         return over_white([cell.ambient, cell.diffuse, cell.specular].map(srgb_to_linear), cell.opacity);
+    }
+    if right.max(up) <= TABLE + FRAME {
+        return [0.2; 3];
     }
     [1.0; 3]
 }
@@ -81,10 +86,11 @@ mod tests {
         let params = LightingParams { source, table: Arc::new(table), divisor_floor: 1.0 / 64.0, light: DVec3::Z };
         let picture = preview(&params, 100);
         let pixel = |x: usize, y: usize| [0, 1, 2, 3].map(|c| picture.layers[0].channels[c][y * 100 + x]);
-        // α = ½/min(1, ½ + ½) = ½, and c = ¾ c_u.
+        // The divisor is min(1, ½ + ½), and c = ¾ c_u.
         let sphere = pixel(60, 40);
         for c in 0..3 {
-            assert!((sphere[c] - (0.5 * 0.75 * COLOR[c] + 0.5)).abs() < 1e-14, "{sphere:?}");
+            let expected = ALPHA_U * 0.75 * COLOR[c] + (1.0 - ALPHA_U);
+            assert!((sphere[c] - expected).abs() < 1e-14, "{sphere:?}");
         }
         let table = pixel(5, 95);
         for (c, code) in [0.5, 0.25, 0.0].into_iter().enumerate() {
