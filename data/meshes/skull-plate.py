@@ -125,7 +125,7 @@ def screw(s):
     u = unit(cross(n, [0, 0, 1]))
     w = cross(n, u)
     profile = [(3.4, -0.6), (3.3, 0.5), (2.7, 1.1), (1.8, 1.35), (1.6, 1.2), (1.5, 0.0), (0, 0.0)]
-    shaft = [(1.3, -1.0)] + [(1.15 + 0.35 * (k % 2), -1.0 - 0.5 * k) for k in range(1, 26)] + [(0, -16.5)]
+    shaft = [(1.3, -1.0)] + [(1.15 + 0.35 * (k % 2), -1.0 - 0.5 * k) for k in range(1, 13)] + [(0, -9.0)]
     for line, smooth in ((profile, False), (shaft, True)):
         rings = [[[f + r * (a * math.cos(t) + b * math.sin(t)) + h * c for f, a, b, c in zip(foot, u, w, n)]
                   for t in (2 * math.pi * k / 24 for k in range(24))] for r, h in line]

@@ -33,10 +33,10 @@ fn stl(y: f64) -> String {
 /// `scene.toml` along +y with a mesh.
 fn folder(mesh: &str) -> Folder {
     let folder = Folder::new();
-    folder.write("square.ply", ply(2.0));
-    folder.write("square.obj", obj(2.0));
-    folder.write("square.stl", stl(2.0));
-    folder.write("behind.ply", ply(17.0));
+    folder.write("square.ply", ply(-3.0));
+    folder.write("square.obj", obj(-3.0));
+    folder.write("square.stl", stl(-3.0));
+    folder.write("behind.ply", ply(12.0));
     folder.scene(&format!("[camera]\ndirection = [0, 1, 0]\n[[mesh]]\n{mesh}"));
     folder
 }
@@ -83,7 +83,7 @@ fn a_mesh_is_picked_and_planned() {
     let json: serde_json::Value = serde_json::from_str(&folder.good("pick scene.toml --pixel 12,8 --json")).unwrap();
     let near = |key: &str, expected: f64| (json[0][key][1].as_f64().unwrap() - expected).abs() < 1e-9;
     assert!(json[0]["mesh"] == 0 && near("normal", -1.0), "{json}");
-    assert!(near("world", 2.0), "{json}");
+    assert!(near("world", -3.0), "{json}");
     let plan = folder.good("plan scene.toml");
     let line = plan.lines().find(|line| line.starts_with("mesh 0 ")).unwrap_or_else(|| panic!("{plan}"));
     let words: Vec<&str> = line.split_whitespace().collect();
@@ -102,7 +102,7 @@ fn meshes_that_cannot_be_read() {
         (None, "error: broken.ply is not there\n"),
         (Some(ply(2.0).replace("3 0 2 3\n", "")), "error: the file is no mesh: "),
         (Some(ply(2.0).replace("3 0 2 3", "3 0 2 9")), "error: triangle 1 has the vertex 9, and the mesh has 4\n"),
-        (Some(ply(f64::NAN)), "error: the file is no mesh: Line 11: "),
+        (Some(ply(f64::NAN)), "error: the file is no mesh: Line 10: "),
     ] {
         if let Some(text) = text {
             folder.write("broken.ply", text);
