@@ -3,6 +3,7 @@
 //! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
 
 mod accumulator;
+mod bilinear;
 pub mod dot_colors;
 pub mod field;
 pub mod interactive_volume_illustration;
@@ -16,4 +17,5 @@ pub mod suggest;
 pub mod surface;
 pub mod transfer;
 pub mod volume_stippling;
+pub mod volumeshop;
 pub mod volumetric_halos;

@@ -20,9 +20,14 @@ pub enum Length {
 impl Length {
     /// The length in world units, for the two units that have a length in the world; none for the others.
     pub fn world(self, grid: &Grid) -> Option<f64> {
+        self.of_voxel(grid.voxel())
+    }
+
+    /// The length in world units where a voxel is so long, as [`Length::world`].
+    pub fn of_voxel(self, voxel: f64) -> Option<f64> {
         match self {
             Self::World(length) => Some(length),
-            Self::Voxels(n) => Some(n * grid.voxel()),
+            Self::Voxels(n) => Some(n * voxel),
             Self::Millimetres(_) | Self::Pixels(_) | Self::Percent(_) => None,
         }
     }

@@ -1,4 +1,4 @@
-//! The command line around `clap`: the default verb, unbuilt verbs, points and pixels that begin with a minus, and usage errors in
+//! The command line around `clap`: the default verb, points and pixels that begin with a minus, and usage errors in
 //! three lines.
 
 use super::Cli;
@@ -7,9 +7,6 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use drypoint::Failure;
 use std::ffi::OsString;
 use std::path::Path;
-
-/// Verbs of later versions.
-const LATER: [&str; 1] = ["paint"];
 
 /// The verb of a command line that names none.
 const DEFAULT: &str = "render";
@@ -24,28 +21,22 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// Puts the default verb in front of a command line that begins with options, a file, or nothing.
-    ///
-    /// # Errors
-    /// A verb that is not built yet.
-    pub(super) fn new(words: impl IntoIterator<Item = OsString>) -> Result<Self, Failure> {
+    pub(super) fn new(words: impl IntoIterator<Item = OsString>) -> Self {
         let mut words: Vec<OsString> = words.into_iter().collect();
         if words.is_empty() {
             words.push("drypoint".into());
         }
         let at = 1 + in_front(&words[1..]);
         let first = words.get(at).and_then(|word| word.to_str()).unwrap_or_default().to_owned();
-        if LATER.contains(&&*first) {
-            return Err(not_built(&first));
-        }
         let own = ["help", "-h", "--help", "-V", "--version"].contains(&&*first);
         if own || Cli::command().find_subcommand(&first).is_some() || is_word(&first) {
             if first == "probe" || first == "pick" {
                 protect_points(&mut words[at..]);
             }
-            return Ok(Self { words, verb: first });
+            return Self { words, verb: first };
         }
         words.insert(at, DEFAULT.into());
-        Ok(Self { words, verb: DEFAULT.into() })
+        Self { words, verb: DEFAULT.into() }
     }
 }
 
@@ -61,12 +52,6 @@ fn in_front(words: &[OsString]) -> usize {
         };
     }
     n.min(words.len())
-}
-
-fn not_built(verb: &str) -> Failure {
-    let verbs: Vec<String> = Cli::command().get_subcommands().map(|verb| verb.get_name().to_owned()).collect();
-    let remedy = format!("the verbs of this version are {}", verbs.join(", "));
-    Failure::new(format!("`{verb}` is not built yet"), format!("drypoint {verb}"), remedy)
 }
 
 /// Whether a word in place of a verb is more likely a misspelt verb than a file: letters only, and no such file.
@@ -114,7 +99,7 @@ mod tests {
     use super::*;
 
     fn words(line: &str) -> String {
-        let arguments = Arguments::new(line.split(' ').map(OsString::from)).unwrap_or_else(|e| panic!("{e}"));
+        let arguments = Arguments::new(line.split(' ').map(OsString::from));
         arguments.words.iter().map(|w| w.to_str().unwrap()).collect::<Vec<_>>().join(" ")
     }
 
@@ -139,13 +124,5 @@ mod tests {
     #[test]
     fn a_point_may_begin_with_a_minus() {
         assert_eq!(words("drypoint probe a --at -1,2 -.5,0 -x"), "drypoint probe a --at  -1,2  -.5,0 -x");
-    }
-
-    #[test]
-    fn what_is_not_built_says_so() {
-        for line in ["drypoint paint a.toml", "drypoint -q paint"] {
-            let failure = Arguments::new(line.split(' ').map(OsString::from)).err().unwrap();
-            assert!(failure.what.contains("is not built yet"), "{failure}");
-        }
     }
 }

@@ -13,6 +13,7 @@ mod input;
 mod limits;
 mod output_path;
 mod page;
+mod paint;
 mod phantom;
 mod pick;
 mod plan;
@@ -74,6 +75,8 @@ enum Verb {
     Probe(probe::ProbeArgs),
     /// Print which part of a volume is visible at a pixel
     Pick(pick::PickArgs),
+    /// Write the selection that the strokes of a scene paint, as a volume
+    Paint(paint::PaintArgs),
     /// Write a test volume with known values and curvatures
     Phantom(phantom::PhantomArgs),
     /// List the work that a scene needs, and the keys that ask for it
@@ -82,7 +85,7 @@ enum Verb {
     Points(points::PointsArgs),
     /// Draw a scene or a volume in hatching or outlines, as SVG, PDF, PNG, EXR or a list of strokes
     Strokes(strokes::StrokesArgs),
-    /// List the styles of a theme, write a preview sheet, or make a style from a picture
+    /// List the styles of a theme or lighting functions, write a preview sheet, or make a style from a picture
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),
@@ -142,7 +145,7 @@ fn exit_code(outcome: Outcome) -> ExitCode {
 
 /// Returns the verb and its arguments, or the requested help or version.
 fn parsed(words: impl IntoIterator<Item = OsString>) -> Result<Result<Cli, clap::Error>, Failures> {
-    let Arguments { words, verb } = Arguments::new(words)?;
+    let Arguments { words, verb } = Arguments::new(words);
     match Cli::try_parse_from(words) {
         Err(error) if error.use_stderr() => Err(arguments::refused(&error, &verb).into()),
         result => Ok(result),
@@ -158,6 +161,7 @@ impl Cli {
             Verb::Info(verb) => verb.run(talk),
             Verb::Probe(verb) => verb.run(talk),
             Verb::Pick(verb) => verb.run(talk),
+            Verb::Paint(verb) => verb.run(talk),
             Verb::Phantom(verb) => verb.run(talk),
             Verb::Plan(verb) => verb.run(talk),
             Verb::Points(verb) => verb.run(talk),

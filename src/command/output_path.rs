@@ -4,6 +4,7 @@ use super::frames::FrameFiles;
 use drypoint::output::atomic;
 use drypoint::scene::tables::Scene;
 use drypoint::scene::volume::read;
+use drypoint::scene::volume::write::WriteError;
 use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 
@@ -47,6 +48,16 @@ pub(super) fn format(path: &Path, formats: &[Format]) -> Result<Format, Failure>
 /// Checks whether a picture's file can be written now.
 pub(super) fn writable(path: &Path) -> Result<(), Failure> {
     atomic::check(path).map_err(|error| Failure::picture(&error, path.display()))
+}
+
+/// Checks that a name ends in `.nrrd` and can be written now. `what` is what is written, in words.
+pub(super) fn volume(path: &Path, what: &str) -> Result<(), Failure> {
+    if !path.is_dir() && !path.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
+        let what = format!("{what} is written as NRRD");
+        return Err(Failure::new(what, path.display(), "give a name that ends in .nrrd"));
+    }
+    drypoint::scene::atomic::check(path)
+        .map_err(|source| Failure::from(WriteError { file: path.to_path_buf(), source }))
 }
 
 /// Writes a file that is no picture of a scene, whole or not at all.

@@ -1,16 +1,16 @@
 //! The verb `phantom`: a volume with known truth.
 
 use super::report::{Progress, note, print};
-use super::{Done, Outcome, Talk};
+use super::{Done, Outcome, Talk, output_path};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
+use drypoint::Failure;
+use drypoint::scene::phantom;
 use drypoint::scene::phantom::PhantomError;
 use drypoint::scene::tables::PhantomSource;
 use drypoint::scene::volume::VoxelType;
-use drypoint::scene::volume::write::{WriteError, write_nrrd};
-use drypoint::scene::{atomic, phantom};
-use drypoint::{Failure, Failures};
-use std::path::{Path, PathBuf};
+use drypoint::scene::volume::write::write_nrrd;
+use std::path::PathBuf;
 
 /// Write a test volume with known values and curvatures, as NRRD.
 #[derive(Debug, Args)]
@@ -41,7 +41,7 @@ pub(super) struct PhantomArgs {
 impl PhantomArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
         let (false, Some(name), Some(output)) = (self.list, &self.name, &self.output) else { return print(&list()) };
-        checked(output)?;
+        output_path::volume(output, "a phantom")?;
         let source = PhantomSource {
             name: name.clone(),
             size: three(&self.size, "--size")?,
@@ -62,15 +62,6 @@ impl PhantomArgs {
         note(talk, output.display());
         Ok(Done::Yes)
     }
-}
-
-/// Checks that a name ends in `.nrrd` and can be written now.
-fn checked(output: &Path) -> Result<(), Failures> {
-    if !output.is_dir() && !output.extension().is_some_and(|suffix| suffix.eq_ignore_ascii_case("nrrd")) {
-        let what = "a phantom is written as NRRD";
-        return Err(Failure::new(what, output.display(), "give a name that ends in .nrrd").into());
-    }
-    atomic::check(output).map_err(|source| Failure::from(WriteError { file: output.to_path_buf(), source }).into())
 }
 
 /// Returns three numbers from one for all axes, or from three.

@@ -43,7 +43,10 @@ impl Job {
             for &pixel in pixels {
                 match renderer.pick(point_of_pixel(pixel)) {
                     Some(found) => points.push(found.world),
-                    None => failures.push(nothing_seen(&self.scene, halo, pixel)),
+                    None => {
+                        let key = format!("halo[{halo}].seed.focus.pixels");
+                        failures.push(nothing_seen(&self.scene, &key, "it gives the halo no focus", pixel));
+                    }
                 }
             }
             picked.push((halo, points));
@@ -52,15 +55,18 @@ impl Job {
     }
 }
 
-/// Returns the failure of a pixel without a visible structure.
-fn nothing_seen(scene: &Scene, halo: usize, pixel: [f64; 2]) -> Failure {
+/// Returns the failure of a pixel without a visible structure, and its consequence in words.
+pub(super) fn nothing_seen(scene: &Scene, key: &str, consequence: &str, pixel: [f64; 2]) -> Failure {
     let ([x, y], [width, height]) = (pixel, scene.picture.size);
     let [right, down] = point_of_pixel(pixel);
     let what = if right <= width as f64 && down <= height as f64 {
-        format!("nothing is seen at the pixel [{x}, {y}], so it gives the halo no focus")
+        format!("nothing is seen at the pixel [{x}, {y}], so {consequence}")
     } else {
         format!("the pixel [{x}, {y}] lies outside the picture of {width} × {height} pixels")
     };
-    let place = scene.given.position(&format!("halo[{halo}].seed.focus.pixels"));
-    Failure::new(what, place, "give a pixel that shows the volume; `drypoint pick` tells what is seen at one")
+    Failure::new(
+        what,
+        scene.given.position(key),
+        "give a pixel that shows the volume; `drypoint pick` tells what is seen at one",
+    )
 }

@@ -7,14 +7,18 @@ use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::file::Given;
+use drypoint_scene::memory;
 use drypoint_scene::mesh::{self, TriangleMesh};
 use drypoint_scene::phantom::{self, PhantomError};
-use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, VolumeSource, VolumeTable};
+use drypoint_scene::plan::{Pass, Plan};
+use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
+use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, TransferKind, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::FunctionError;
 use drypoint_scene::volume::labels::LabelNames;
 use drypoint_scene::volume::read::Fault;
 use drypoint_scene::volume::{Volume, read};
+use std::fmt::Display;
+use std::sync::Arc;
 
 /// Reads or generates a scene's volume.
 pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
@@ -111,7 +115,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
 }
 
 /// Returns the remedy of a label's name that nothing has.
-fn known_label(name: &str, names: &LabelNames) -> String {
+pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
     match names.nearest(name) {
         Some(nearest) => format!("write {nearest:?}"),
         None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
@@ -158,6 +162,23 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
         _ => "styles.theme".into(),
     };
     Failure::new(error, scene.given.position(&key), error.help())
+}
+
+/// Reads the lighting table of a file, if rays are lit by one. Errors go to `failures`.
+pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<Failure>) {
+    let is_lit = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular);
+    let Some(shading) = scene.shading.as_mut().filter(|_| is_lit && plan.has_pass(Pass::Rays)) else { return };
+    let reads = shading.lighting_file().is_some();
+    let Some(file) = shading.table.as_mut().filter(|_| reads) else { return };
+    let failed = |what: &dyn Display, remedy| {
+        let what = format!("the lighting table {}: {what}", file.path.display());
+        Failure::new(what, scene.given.position("shading.table"), remedy)
+    };
+    let read = memory::read(&file.path).map_err(|error| failed(&error, "give a picture that may be read"));
+    match read.and_then(|bytes| decode_lighting_table(&bytes).map_err(|fault| failed(&fault, fault.help()))) {
+        Ok(table) => file.table = Some(Arc::new(table)),
+        Err(failure) => failures.push(failure),
+    }
 }
 
 /// Reads the picture behind the volume, if the scene has one. Errors go to `failures`.

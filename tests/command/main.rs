@@ -15,6 +15,7 @@ mod interrupt;
 mod mesh;
 mod output;
 mod overrides;
+mod paint;
 mod phantom;
 mod pick;
 mod plan;

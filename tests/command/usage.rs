@@ -79,16 +79,6 @@ fn wrong_use_is_told_in_three_lines() {
     }
 }
 
-#[test]
-fn what_is_not_built_yet_says_so() {
-    let folder = Folder::new();
-    let verbs = "the verbs of this version are render, info, probe, pick, phantom, plan, points, strokes, styles, compare, validate, cost, sheet, halo, wedge, schema, completions";
-    for (line, verb) in [("paint scene.toml", "paint"), ("-q paint scene.toml", "paint")] {
-        let expected = format!("error: `{verb}` is not built yet\n  at: drypoint {verb}\n  try: {verbs}\n");
-        assert_eq!(folder.refused(line), expected);
-    }
-}
-
 /// A command without graphics says how to get them; one with graphics that finds no adapter says what to install.
 #[test]
 fn a_card_that_is_not_there_is_an_error_with_a_remedy() {

@@ -9,7 +9,7 @@ pub(crate) mod rod;
 pub(crate) mod strip;
 
 use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
-use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
 use drypoint::reference::suggest;
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
@@ -262,6 +262,7 @@ impl Stage {
             styles: &named,
             meshes: &self.meshes,
             background,
+            objects: ObjectInputs::default(),
         })
     }
 }

@@ -15,6 +15,7 @@ mod eye;
 mod halos;
 mod hash;
 mod layers;
+mod lighting;
 mod masks;
 mod meshes;
 mod mirror;

@@ -65,6 +65,7 @@ static THEMES: &[&Theme] = &[
     &crate::surfaces::THEME,
     &crate::stipples::THEME,
     &crate::toon::THEME,
+    &crate::lighting::THEME,
     &crate::strokes::THEME,
     &crate::halos::THEME,
 ];

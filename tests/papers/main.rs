@@ -6,4 +6,5 @@ mod common;
 mod interactive_volume_illustration;
 mod style_transfer_functions;
 mod volume_stippling;
+mod volumeshop;
 mod volumetric_halos;

@@ -64,8 +64,13 @@ fn graphics_cards_read_the_shot_and_decide_no_meaning() {
 
 #[test]
 fn a_paper_imports_no_other_paper() {
-    let papers =
-        ["style_transfer_functions", "volume_stippling", "interactive_volume_illustration", "volumetric_halos"];
+    let papers = [
+        "style_transfer_functions",
+        "volume_stippling",
+        "interactive_volume_illustration",
+        "volumetric_halos",
+        "volumeshop",
+    ];
     for paper in papers {
         let others: Vec<String> =
             papers.iter().filter(|other| **other != paper).map(|other| format!("crate::{other}")).collect();

@@ -5,6 +5,7 @@ mod data_page;
 mod labels;
 mod measure;
 mod scenes;
+mod selections;
 mod templates;
 
 use std::path::PathBuf;

@@ -1,6 +1,7 @@
 //! Pictures read from files, our own and other renderers' ([GPU-5]).
 
 mod background;
+mod intersection_picture;
 mod exr;
 mod png;
 
@@ -10,6 +11,7 @@ use drypoint_scene::picture::Picture;
 use std::path::Path;
 
 pub use background::{read_background, stretch};
+pub use intersection_picture::read_intersection_picture;
 
 /// A picture of any origin, as named channels of numbers, row by row from the top.
 ///

@@ -82,8 +82,8 @@ pub(super) fn pick<R: Real, S: Sampler<R>>(
     }
     let mut state = RayState::new(prepared, sampler, point);
     let mut steps = Vec::new();
-    state.path_among(&[], None, &mut steps);
     let mut counts = Counts::default();
+    state.path_among((point, &[]), None, &mut steps, &mut counts);
     // The heaviest candidate so far: its weight, and A after it.
     let mut heaviest: Option<(Candidate, [f64; 2])> = None;
     for step in steps.into_iter().flat_map(Step::one_by_one) {

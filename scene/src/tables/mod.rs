@@ -53,7 +53,10 @@ pub use hatching::{
 pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable, Opposite};
 pub use mesh::MeshTable;
 pub use nodes::{Row, RowAt, Stand};
-pub use object::{Cut, GhostTable, Motion, ObjectTable, PartName, Role, Rotation};
+pub use object::{
+    Brush, Connectivity, Cut, GhostTable, Motion, ObjectTable, PaintMode, PaintStroke, PaintTarget, PartName, Role,
+    Rotation,
+};
 pub use orbit::Orbit;
 pub use outlines::{Crease, Outlines};
 pub use over::{Axis, LabelKey, Over};

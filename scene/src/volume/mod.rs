@@ -16,6 +16,7 @@ pub mod quantile;
 mod raw_layout;
 pub mod read;
 mod selection;
+mod shown;
 mod subset;
 pub mod write;
 
@@ -23,6 +24,7 @@ pub use bricks::{BRICK, BrickRow, Bricks};
 pub use mask::Mask;
 pub use raw_layout::RawLayout;
 pub use selection::Selection;
+pub use shown::ShownValues;
 pub use subset::{KeptVoxels, NotInVolume, Subset};
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 

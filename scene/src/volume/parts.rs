@@ -3,7 +3,7 @@
 //! A row of voxels is a list of runs. Runs of neighbouring rows that overlap belong to one part; a union–find over the
 //! runs joins them. A part is known by its first voxel in the order of storage.
 
-use super::{Access, Mask, Volume, Voxel};
+use super::{Access, Mask, ShownValues, Volume, Voxel};
 use crate::memory::{self, NoRoom};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -49,28 +49,14 @@ pub struct Parts {
     all: Vec<Part>,
 }
 
-/// A volume of fewer values than this is looked up in a table instead of asked about voxel by voxel.
-const TABLE: f64 = 65_536.0;
-
 impl Parts {
     /// Finds the parts of the voxels whose value is shown. Voxels that are not finite in the file belong to none.
     ///
     /// # Errors
     /// Memory that the budget does not allow.
     pub fn find(volume: &Volume, is_shown: &(dyn Fn(f64) -> bool + Sync)) -> Result<Self, NoRoom> {
-        let (slope, intercept, dims) = (volume.slope(), volume.intercept(), volume.dims());
-        // Integers of few values are asked about once each.
-        let [lowest, highest] = volume.voxels().range();
-        let few = volume.voxels().voxel_type().is_integer() && highest - lowest < TABLE;
-        let steps = if few { (highest - lowest) as usize + 1 } else { 0 };
-        let table: Vec<bool> = (0..steps).map(|i| is_shown(slope * (lowest + i as f64) + intercept)).collect();
-        with_access!(volume, |access| {
-            let shown = |stored: f64| match table.get((stored - lowest) as usize) {
-                Some(&shown) if few => shown,
-                _ => is_shown(slope * stored + intercept),
-            };
-            Self::of(dims, access, shown, volume.mask())
-        })
+        let shown = ShownValues::new(volume, is_shown);
+        with_access!(volume, |access| Self::of(volume.dims(), access, |stored| shown.has(stored), volume.mask()))
     }
 
     fn of<A: Access>(

@@ -3,7 +3,7 @@
 pub(super) mod bspline;
 pub(super) mod bspline5;
 pub(super) mod catmull_rom;
-pub(super) mod trilinear;
+pub(crate) mod trilinear;
 
 pub use bspline::{Bspline, BsplineSmooth};
 pub use bspline5::Bspline5;

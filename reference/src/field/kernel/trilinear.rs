@@ -19,7 +19,7 @@ pub(in crate::field) fn bilinear<R: Arithmetic>(c: [R; 4], wy: R, wz: R) -> R {
 
 /// The interpolation itself, along x first.
 #[inline(always)]
-pub(in crate::field) fn value<R: Arithmetic>(rows: Corners<R>, [wx, wy, wz]: [R; 3]) -> R {
+pub(crate) fn value<R: Arithmetic>(rows: [[R; 2]; 4], [wx, wy, wz]: [R; 3]) -> R {
     bilinear([along(rows[0], wx), along(rows[1], wx), along(rows[2], wx), along(rows[3], wx)], wy, wz)
 }
 

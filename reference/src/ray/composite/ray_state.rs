@@ -2,6 +2,7 @@
 
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
+use super::object_ray::{ObjectRay, Together};
 use super::path::Step;
 use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
@@ -38,6 +39,8 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(crate) samples: u64,
+    /// The objects on the ray; none: the background alone.
+    pub(super) objects: Option<Box<ObjectRay<'p, 'v, R>>>,
 }
 
 /// Colour and opacity in front on a ray. The loop over samples holds them in registers.
@@ -65,6 +68,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             of_samples: R::ZERO,
             sums: None,
             samples: 0,
+            objects: None,
         }
     }
 
@@ -202,6 +206,80 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     /// Visits the samples first..=last. Returns whether the ray is still open.
     #[inline(never)]
     fn run<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
+        match self.objects.take() {
+            None => self.run_background::<N>(visit, tint, counts),
+            Some(mut objects) => {
+                let open = self.run_with::<N>(&mut objects, visit, tint, counts);
+                self.objects = Some(objects);
+                open
+            }
+        }
+    }
+
+    /// Visits samples among objects: runs of the background alone as if there were none, the others one by one.
+    #[inline(never)]
+    fn run_with<N: Need>(
+        &mut self,
+        objects: &mut ObjectRay<'p, 'v, R>,
+        [mut next, last]: [i64; 2],
+        tint: Option<&Tint>,
+        counts: &mut Counts,
+    ) -> bool {
+        let prepared = self.prepared;
+        let can_show = |cell| prepared.cells.as_ref().is_none_or(|cells| cells.can_show(&prepared.object.field, cell));
+        while next <= last {
+            let ([first, end], is_mixed) = objects.run_from([next, last]);
+            if is_mixed {
+                for k in first..=end {
+                    let before = counts.samples;
+                    let together = objects.together(k, &mut self.evaluator, can_show, counts);
+                    self.samples += std::mem::replace(&mut counts.samples, before) - before;
+                    let Some(together) = together else { continue };
+                    self.composite_together(objects, k, &together, tint, counts);
+                    if !self.is_open() {
+                        return false;
+                    }
+                }
+            } else {
+                for range in objects.background_in([first, end]) {
+                    if !self.run_background::<N>(range, tint, counts) {
+                        return false;
+                    }
+                }
+            }
+            next = end + 1;
+        }
+        true
+    }
+
+    /// Composites what objects are together at a sample.
+    fn composite_together(
+        &mut self,
+        objects: &mut ObjectRay<'p, 'v, R>,
+        k: i64,
+        together: &Together<R>,
+        tint: Option<&Tint>,
+        counts: &mut Counts,
+    ) {
+        let Together { rgb, alpha, largest } = together;
+        let corrected = self.correction.apply(*alpha);
+        self.front.accumulator.over(tinted(self.in_blend_space(*rgb), tint), corrected);
+        if !self.prepared.collects || *alpha <= R::ZERO {
+            return;
+        }
+        let exponent = self.prepared.object.field.scale_exponent();
+        match objects.for_layers(largest, self.sums.is_none(), exponent, counts) {
+            None => self.collect(largest.sample, corrected, largest.attributes, counts),
+            Some(attributes) => {
+                let (depth, value) = (self.evaluator.ray.depth(k).to_f64(), largest.sample.s.to_f64());
+                self.add_to_layers(corrected, depth, value, &attributes);
+            }
+        }
+    }
+
+    /// Visits samples of the background, or of a picture without objects. Returns whether the ray is still open.
+    #[inline(always)]
+    fn run_background<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         if S::AT_ONCE > 1 {
             self.run_ahead::<N>(visit, tint, counts)
         } else {

@@ -30,6 +30,7 @@ const HATCHING: (&str, &str) = ("hatching", "{}");
 const LIT: (&str, &str) = ("hatching", "{ lighting = {} }");
 const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
+const TABLE: (&str, &str) = ("shading.model", "lighting-function");
 const TOON: (&str, &str) = ("shading.model", "toon");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
@@ -145,6 +146,10 @@ const SAMPLES: &[Sample] = &[
     ("shading.shininess", &[("shading", "{}")], "5"),
     ("shading.light", &[("shading", "{}")], "{ world = [1, 0, 0] }"),
     ("shading.model", &[("shading", "{}")], "toon"),
+    ("shading.preset", &[TABLE], "metal-contours"),
+    ("shading.table", &[TABLE], "light.png"),
+    ("shading.contour", &[TABLE], "printed"),
+    ("shading.divisor_floor", &[TABLE], "0.1"),
     ("shading.toon", &[TOON], "{}"),
     ("shading.toon.offset", &[TOON], "0.5"),
     ("shading.toon.tones", &[TOON], "[[0, \"red\"]]"),

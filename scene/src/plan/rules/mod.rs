@@ -6,6 +6,7 @@ mod contours;
 mod halo;
 mod hatching;
 mod mesh;
+mod object;
 mod outlines;
 mod pen;
 mod picture;
@@ -48,7 +49,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 18] = [
+static ALL: [Rules; 21] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -62,6 +63,9 @@ static ALL: [Rules; 18] = [
     contours::RULES,
     style_mipmaps::RULES,
     halo::RULES,
+    object::COMBINE,
+    object::RULES,
+    object::INTERSECTION,
     stipples::RULES,
     hatching::RULES,
     outlines::RULES,

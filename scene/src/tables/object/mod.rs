@@ -4,6 +4,7 @@ mod ghost;
 mod motion;
 mod part_name;
 mod scene_of;
+mod strokes;
 mod table;
 
 pub use ghost::GhostTable;
@@ -12,5 +13,6 @@ pub use motion::{Motion, Rotation};
 pub use part_name::PartName;
 pub(crate) use part_name::PartNames;
 pub use scene_of::Role;
+pub use strokes::{Brush, Connectivity, PaintMode, PaintStroke, PaintTarget};
 pub(crate) use table::TABLE;
 pub use table::{Cut, ObjectTable};

@@ -1,10 +1,11 @@
 //! The description of `[[object]]`.
 
 use super::motion::{Factors, Matrix, ROTATION};
-use super::{GhostTable, Motion, ghost};
+use super::strokes::STROKES;
+use super::{GhostTable, Motion, PaintStroke, ghost};
 use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
-use crate::document::describe::{Instead, Kind, Later, Shape, Table};
+use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Flag, Lengths, ListOf, Number, Numbers, On, PathTo, Rule, TableOf, Text};
@@ -40,6 +41,8 @@ pub struct ObjectTable {
     pub label: Option<Vec<LabelKey>>,
     /// Pairs of a value and its membership, in non-decreasing order of the value.
     pub value: Option<Vec<[f64; 2]>>,
+    /// Strokes that paint the selection, in their order; none: another key says what is selected.
+    pub strokes: Option<Vec<PaintStroke>>,
     /// M.
     pub motion: Motion,
     /// γ of the background before the selection, in [0, 1].
@@ -88,6 +91,7 @@ impl Default for ObjectTable {
             selection: None,
             label: None,
             value: None,
+            strokes: None,
             motion: Motion::NONE,
             ghosting: 0.0,
             ghosting_of_ghost: 0.0,
@@ -130,10 +134,10 @@ const OF_OWN_VOLUME: [&str; 5] = ["labels", "label_names", "range", "gradient_ra
 
 /// The description of a table `[[object]]`.
 pub(crate) static TABLE: Table<ObjectTable> = Table {
-    later: &[Later { name: "strokes", tag: "VS-6" }],
     instead: &[
-        Instead { one: "selection", others: &["label", "value"] },
-        Instead { one: "label", others: &["value"] },
+        Instead { one: "selection", others: &["label", "value", "strokes"] },
+        Instead { one: "label", others: &["value", "strokes"] },
+        Instead { one: "value", others: &["strokes"] },
         Instead { one: "matrix", others: &["move", "scale", "rotate", "center"] },
     ],
     check: |object, check| {
@@ -183,6 +187,8 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
             label: key("VS-2", Labels).absent("`selection`, `value`, or all of the data");
             /// Membership over the value: pairs [value, membership], linear between them and constant beyond both ends.
             value: key("VS-2", UnitPairs).absent("`selection`, `label`, or all of the data");
+            /// Strokes of brushes, grown regions and watershed basins that paint the selection onto the data, in their order.
+            strokes: key("VS-6", STROKES).absent("`selection`, `label`, `value`, or all of the data");
             /// The way that the selection is moved.
             shift: key("VS-2", WAY,
                 |o| o.motion.matrix.is_none().then(|| o.motion.shift.to_array()),

@@ -1,0 +1,215 @@
+//! Strokes that change a selection: dabs of a brush, grown regions and basins of a watershed ([VS-6]).
+
+use super::brush::{composed, membership};
+use super::flood::{Marker, basins};
+use super::region::grown;
+use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
+use crate::with_sampler;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::memory::NoRoom;
+use drypoint_scene::tables::{Brush, Connectivity, PaintMode};
+use drypoint_scene::volume::{Access, Selection, ShownValues, Volume, Voxel};
+use drypoint_scene::with_access;
+
+/// One dab of a brush.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dab {
+    /// A point of the world; the brush is centred at the nearest voxel.
+    pub at: DVec3,
+    /// Radius in world units.
+    pub radius: f64,
+    /// Shape.
+    pub brush: Brush,
+    /// The change of the memberships.
+    pub mode: PaintMode,
+}
+
+/// A region to grow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// A point of the world; the seed is the nearest voxel.
+    pub at: DVec3,
+    /// The largest difference from the seed's value.
+    pub tolerance: f64,
+    /// The neighbours of a voxel.
+    pub connect: Connectivity,
+    /// The change of the memberships.
+    pub mode: PaintMode,
+}
+
+/// A seed of a watershed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seed {
+    /// A point of the world; the marker is the nearest voxel.
+    pub at: DVec3,
+    /// The change of the memberships in the seed's basin.
+    pub mode: PaintMode,
+}
+
+/// The extent of a stroke.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Painted {
+    /// Shown voxels that the stroke covers.
+    pub voxels: usize,
+    /// Bricks whose memberships changed.
+    pub bricks: usize,
+}
+
+/// A stroke that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PaintError {
+    /// The seed with this place in the list lies outside the volume.
+    #[error("the seed lies outside the volume")]
+    Outside(usize),
+    /// The transfer function does not show the voxel of the seed with this place in the list.
+    #[error("the transfer function does not show the seed's voxel")]
+    Hidden(usize),
+    /// Memory that the budget does not allow.
+    #[error("{0}")]
+    NoRoom(NoRoom),
+    /// A volume without gradient.
+    #[error("{0}")]
+    Field(FieldError),
+}
+
+impl From<NoRoom> for PaintError {
+    fn from(no_room: NoRoom) -> Self {
+        Self::NoRoom(no_room)
+    }
+}
+
+/// What paints selections of a volume.
+pub struct Painter<'a> {
+    volume: &'a Volume,
+    shown: ShownValues<'a>,
+}
+
+impl<'a> Painter<'a> {
+    /// Prepares painting onto voxels whose value `is_shown`. Voxels that are not finite in the file are never painted.
+    pub fn new(volume: &'a Volume, is_shown: &'a (dyn Fn(f64) -> bool + Sync)) -> Self {
+        Self { volume, shown: ShownValues::new(volume, is_shown) }
+    }
+
+    /// Dabs a brush onto a selection of the volume. The brush need not lie in the volume.
+    ///
+    /// # Errors
+    /// Memory that the budget does not allow.
+    pub fn dab(&self, selection: &mut Selection, dab: &Dab) -> Result<Painted, NoRoom> {
+        let grid = self.volume.grid();
+        let centre = nearest_voxel(grid.to_index(dab.at));
+        // Half the sides of the box, in index space, about the ball or the box of the world.
+        let rows = grid.inverse_axes().transpose();
+        let reach = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| match dab.brush {
+            Brush::Gaussian | Brush::Ball => row.length(),
+            Brush::Box => row.abs().element_sum(),
+        });
+        // A margin for rounding: the brush itself decides at its border.
+        let reach = DVec3::from_array(reach) * dab.radius * (1.0 + 1e-9);
+        let last = DVec3::from_array(grid.dims().map(|n| (n - 1) as f64));
+        let (lo, hi) = ((centre - reach).ceil().max(DVec3::ZERO), (centre + reach).floor().min(last));
+        if !lo.cmple(hi).all() {
+            return Ok(Painted::default());
+        }
+        let (first, end) = (lo.to_array().map(|i| i as usize), hi.to_array().map(|i| i as usize + 1));
+        let mut voxels = 0;
+        let bricks = with_access!(self.volume, |access| {
+            selection.memberships.modify(first, end, |voxel, f| {
+                let offset = grid.axes() * (DVec3::from_array(voxel.map(|i| i as f64)) - centre);
+                match membership(dab.brush, offset, dab.radius) {
+                    Some(b) if self.shows(access, voxel) => {
+                        voxels += 1;
+                        composed(dab.mode, f, b)
+                    }
+                    _ => f,
+                }
+            })
+        })?;
+        Ok(Painted { voxels, bricks })
+    }
+
+    /// Paints a region that grows from a seed over shown voxels of similar value.
+    ///
+    /// # Errors
+    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    pub fn grow(&self, selection: &mut Selection, growth: &Growth) -> Result<Painted, PaintError> {
+        let seed = self.seed(growth.at, 0)?;
+        let (dims, value) = (self.volume.dims(), self.volume.value(seed));
+        let (slope, intercept) = (self.volume.slope(), self.volume.intercept());
+        let region = with_access!(self.volume, |access| {
+            grown(dims, seed, growth.connect, |voxel| {
+                let [x, y, z] = voxel;
+                let difference = slope * access.at(x, y, z).to_f64() + intercept - value;
+                difference.abs() <= growth.tolerance && self.shows(access, voxel)
+            })
+        })?;
+        let [first, end] = region.bounds();
+        let change = |voxel, f| if region.has(voxel) { composed(growth.mode, f, 1.0) } else { f };
+        let bricks = selection.memberships.modify(first, end, change)?;
+        Ok(Painted { voxels: region.count(), bricks })
+    }
+
+    /// Paints the basins of seeds. The relief is the gradient magnitude by central differences; hidden voxels are walls.
+    ///
+    /// # Errors
+    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    pub fn watershed(&self, selection: &mut Selection, seeds: &[Seed]) -> Result<Painted, PaintError> {
+        let field = Field::<f64>::new(self.volume, Reconstruction::default(), Rung::Gradient);
+        let field = field.map_err(PaintError::Field)?;
+        // Squares have the order of magnitudes.
+        with_sampler!(field, |sampler| self.watershed_over(selection, seeds, |voxel| {
+            let gradient = sampler.voxel_gradient(voxel);
+            gradient.dot(gradient)
+        }))
+    }
+
+    /// Paints the basins of seeds over a relief. Hidden voxels are walls.
+    ///
+    /// # Errors
+    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    pub fn watershed_over(
+        &self,
+        selection: &mut Selection,
+        seeds: &[Seed],
+        relief: impl FnMut([usize; 3]) -> f64,
+    ) -> Result<Painted, PaintError> {
+        let mut markers = Vec::new();
+        for (i, seed) in seeds.iter().enumerate() {
+            markers.push(Marker { voxel: self.seed(seed.at, i)?, basin: i as u32 + 1 });
+        }
+        let dims = self.volume.dims();
+        let basins =
+            with_access!(self.volume, |access| basins(dims, &markers, |voxel| self.shows(access, voxel), relief))?;
+        let voxels = basins.iter().filter(|&&basin| basin > 0).count();
+        let change = |[x, y, z]: [usize; 3], f| match basins[(z * dims[1] + y) * dims[0] + x].checked_sub(1) {
+            Some(seed) => composed(seeds[seed as usize].mode, f, 1.0),
+            None => f,
+        };
+        let bricks = selection.memberships.modify([0; 3], dims, change)?;
+        Ok(Painted { voxels, bricks })
+    }
+
+    /// The voxel of a seed.
+    fn seed(&self, at: DVec3, place: usize) -> Result<[usize; 3], PaintError> {
+        let index = nearest_voxel(self.volume.grid().to_index(at));
+        let last = DVec3::from_array(self.volume.dims().map(|n| (n - 1) as f64));
+        if !(index.cmpge(DVec3::ZERO).all() && index.cmple(last).all()) {
+            return Err(PaintError::Outside(place));
+        }
+        let voxel = index.to_array().map(|i| i as usize);
+        let is_shown = with_access!(self.volume, |access| self.shows(access, voxel));
+        if is_shown { Ok(voxel) } else { Err(PaintError::Hidden(place)) }
+    }
+
+    /// Whether a voxel is shown.
+    #[inline]
+    fn shows(&self, access: impl Access, voxel: [usize; 3]) -> bool {
+        let [x, y, z] = voxel;
+        self.shown.has(access.at(x, y, z).to_f64()) && !self.volume.mask().is_some_and(|mask| mask.voxel(voxel))
+    }
+}
+
+/// The nearest voxel of a position; of two at equal distance that with the lower index.
+fn nearest_voxel(index: DVec3) -> DVec3 {
+    // The sum turns −0 into 0.
+    (index - 0.5).ceil() + 0.0
+}

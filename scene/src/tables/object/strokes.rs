@@ -1,0 +1,206 @@
+//! `strokes` of an object: what paints its selection, one stroke after the other ([VS-6]).
+
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::document::declare::{choices, keys};
+use crate::document::describe::{Instead, Kind, Shape, Table};
+use crate::document::item::{Item, Value};
+use crate::document::kind::{Bounds, Lengths, ListOf, Number, Numbers, On, Rule, TableOf};
+use crate::document::out::Out;
+use crate::tables::Length;
+use glam::DVec3;
+use serde_json::{Value as Json, json};
+
+/// One stroke.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PaintStroke {
+    /// The part of the volume that is painted.
+    pub target: PaintTarget,
+    /// The change of the memberships there.
+    pub mode: PaintMode,
+    /// The radius of a brush.
+    pub radius: Length,
+    /// The shape of a brush.
+    pub brush: Brush,
+    /// The largest difference of a value of a grown region from that of its seed.
+    pub tolerance: f64,
+    /// The neighbours of a voxel in a grown region.
+    pub connect: Connectivity,
+}
+
+/// The part of the volume that a stroke paints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PaintTarget {
+    /// A brush about the first visible structure at a pixel: column and row from 0; whole numbers are centres of pixels.
+    Pixel([f64; 2]),
+    /// A brush about a point of the world.
+    At(DVec3),
+    /// The region about a point of the world in which values are like that of the point.
+    Grow(DVec3),
+    /// The watershed basin of a point of the world.
+    Watershed(DVec3),
+}
+
+choices! {
+    /// The shape of a brush: its membership b at a distance r from the centre, R the radius ([VS-6]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Brush {
+        /// b = exp(−½ (r/σ)²) up to R, with σ = R/3.
+        Gaussian = "gaussian",
+        /// b = 1 up to R.
+        Ball = "ball",
+        /// b = 1 up to R along each axis of the world.
+        Box = "box",
+    }
+}
+
+choices! {
+    /// The change of a membership f by a brush of membership b, within [0, 1] ([VS-6]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum PaintMode {
+        /// f + b, at most 1.
+        Add = "add",
+        /// f − b, at least 0.
+        Subtract = "subtract",
+        /// The larger of f and b.
+        Maximum = "maximum",
+        /// b.
+        Replace = "replace",
+    }
+}
+
+/// The neighbours of a voxel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Connectivity {
+    /// The 6 voxels that share a face.
+    Faces,
+    /// The 18 voxels that share a face or an edge.
+    Edges,
+    /// The 26 voxels that share a face, an edge or a corner.
+    Corners,
+}
+
+impl Connectivity {
+    /// Every connectivity.
+    const ALL: [Self; 3] = [Self::Faces, Self::Edges, Self::Corners];
+
+    /// The number of neighbours.
+    pub fn neighbours(self) -> u64 {
+        match self {
+            Self::Faces => 6,
+            Self::Edges => 18,
+            Self::Corners => 26,
+        }
+    }
+}
+
+/// 6, 18 or 26.
+struct Neighbours;
+
+impl Shape for Neighbours {
+    fn expected(&self) -> String {
+        "6, 18 or 26".into()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "enum": Connectivity::ALL.map(Connectivity::neighbours) })
+    }
+}
+
+impl Kind for Neighbours {
+    type Of = Connectivity;
+
+    fn read(&self, item: &Item, check: &mut Check) -> Option<Connectivity> {
+        let found = Connectivity::ALL
+            .into_iter()
+            .find(|connect| matches!(item.value, Value::Whole(n) if u64::try_from(n) == Ok(connect.neighbours())));
+        found.or_else(|| check.wrong(item, self.expected()))
+    }
+
+    fn write(&self, value: &Connectivity) -> Out {
+        Out::Whole(value.neighbours())
+    }
+}
+
+/// A point of the world.
+const POINT: Numbers<3> = Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free };
+
+/// The keys of which a stroke has one.
+const TARGETS: [&str; 4] = ["pixel", "at", "grow", "watershed"];
+
+/// The description of a stroke.
+static STROKE: Table<PaintStroke> = Table {
+    instead: &[
+        Instead { one: "pixel", others: &["at", "grow", "watershed", "tolerance", "connect"] },
+        Instead { one: "at", others: &["grow", "watershed", "tolerance", "connect"] },
+        Instead { one: "grow", others: &["watershed", "radius", "brush"] },
+        Instead { one: "watershed", others: &["radius", "brush", "tolerance", "connect"] },
+    ],
+    check: |_, check| {
+        if !TARGETS.iter().any(|target| check.has(target)) {
+            let expected = "pixel = [x, y], at = [x, y, z], grow = [x, y, z] or watershed = [x, y, z]".into();
+            check.fault_in("pixel", Problem::Missing { expected });
+        }
+    },
+    ..Table::new(
+        "a stroke",
+        "One stroke of a brush, one grown region or one basin of a watershed. Voxels that the transfer function does not \
+         show are not painted.",
+        || PaintStroke {
+            target: PaintTarget::At(DVec3::ZERO),
+            mode: PaintMode::Add,
+            radius: Length::Voxels(5.0),
+            brush: Brush::Gaussian,
+            tolerance: 0.0,
+            connect: Connectivity::Faces,
+        },
+        keys! { PaintStroke {
+            /// The pixel at which the volume is painted, column and row from the upper left corner, from 0. A whole number is
+            /// the centre of a pixel. The brush is at the first visible structure, as `drypoint pick` tells it.
+            pixel: key("VS-6", Numbers { what: "a pixel [x, y]", bounds: Bounds::NOT_NEGATIVE, rule: Rule::Free },
+                |s| match s.target {
+                    PaintTarget::Pixel(pixel) => Some(pixel),
+                    _ => None,
+                },
+                |s, v| s.target = PaintTarget::Pixel(v)).absent("one of `at`, `grow` and `watershed`");
+            /// A point of the world, about which the volume is painted.
+            at: key("VS-6", POINT,
+                |s| match s.target {
+                    PaintTarget::At(p) => Some(p.to_array()),
+                    _ => None,
+                },
+                |s, v| s.target = PaintTarget::At(DVec3::from_array(v))).absent("one of `pixel`, `grow` and `watershed`");
+            /// A point of the world from which a region grows, over neighbours whose values differ from the point's by at most
+            /// `tolerance`.
+            grow: key("VS-6", POINT,
+                |s| match s.target {
+                    PaintTarget::Grow(p) => Some(p.to_array()),
+                    _ => None,
+                },
+                |s, v| s.target = PaintTarget::Grow(DVec3::from_array(v)))
+                .absent("one of `pixel`, `at` and `watershed`");
+            /// A point of the world from which the volume is flooded, over the gradient magnitude. Strokes of this kind that
+            /// stand one after the other flood together, each up to the others; each paints its own basin by its own mode.
+            watershed: key("VS-6", POINT,
+                |s| match s.target {
+                    PaintTarget::Watershed(p) => Some(p.to_array()),
+                    _ => None,
+                },
+                |s, v| s.target = PaintTarget::Watershed(DVec3::from_array(v)))
+                .absent("one of `pixel`, `at` and `grow`");
+            /// The change of the selection.
+            mode: key("VS-6", PaintMode::KIND);
+            /// Radius of the brush. With 0 it is one voxel.
+            radius: key("VS-6", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+            /// Shape of the brush.
+            brush: key("VS-6", Brush::KIND);
+            /// The largest difference of a value of a grown region from the seed's.
+            tolerance: key("VS-6", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" });
+            /// The neighbours of a voxel in a grown region: 6 share a face, 18 a face or an edge, 26 also a corner.
+            connect: key("VS-6", Neighbours);
+        } },
+    )
+};
+
+/// The kind of `strokes`.
+pub(super) const STROKES: ListOf<TableOf<PaintStroke>> = ListOf { what: "a list of strokes", each: TableOf(&STROKE) };
