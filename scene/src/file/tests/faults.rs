@@ -21,8 +21,8 @@ fn an_unknown_key_names_the_nearest() {
 #[test]
 fn a_part_that_is_not_built_says_so() {
     assert_eq!(
-        faults("[[mesh]]\nfile = \"plate.ply\"\n"),
-        "[[mesh]] is not built yet\n  at scene.toml:4:3, key mesh\n  remove it: this version cannot draw it, \
+        faults("[[arrow]]\nobject = \"a\"\n"),
+        "[[arrow]] is not built yet\n  at scene.toml:4:3, key arrow\n  remove it: this version cannot draw it, \
          and would not ignore it"
     );
     for (rest, what) in [
