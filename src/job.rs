@@ -165,7 +165,7 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
+    pub fn with_volume(scene: Scene, volume: impl Into<Arc<Volume>>) -> Result<Self, Failures> {
         Self::with_volume_for(scene, volume, RenderTarget::Picture)
     }
 
@@ -173,8 +173,12 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn with_volume_for(scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
-        Self::with_shared(scene, Arc::new(volume), target, None)
+    pub fn with_volume_for(
+        scene: Scene,
+        volume: impl Into<Arc<Volume>>,
+        target: RenderTarget,
+    ) -> Result<Self, Failures> {
+        Self::with_shared(scene, volume.into(), target, None)
     }
 
     /// Loads what `target` needs for a volume that others may hold, too. Of a part of an object `main` is the grid of

@@ -57,8 +57,7 @@ impl TriangleMesh {
             }
         }
         let normals = normals.filter(|normals| normals.len() == vertices);
-        // NaN is not below anything.
-        let is_wrong = |v: &DVec3| !(v.abs().max_element() < LARGEST) || v.is_nan();
+        let is_wrong = |v: &DVec3| v.is_nan() || v.abs().max_element() >= LARGEST;
         if let Some(vertex) =
             positions.iter().position(is_wrong).or_else(|| normals.as_ref()?.iter().position(is_wrong))
         {
