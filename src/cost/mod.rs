@@ -202,8 +202,8 @@ pub fn sweep(
         base = knob.set(&base, &own)?;
     }
     let phantom = match &base.volume.source {
-        // The formula has all parts.
-        VolumeSource::Phantom(source) if base.volume.parts.is_none() => {
+        // The formula has all parts, and objects are drawn from voxels.
+        VolumeSource::Phantom(source) if base.volume.parts.is_none() && base.objects.is_empty() => {
             phantom::of_source(source).ok().map(|(phantom, _)| phantom)
         }
         VolumeSource::Phantom(_) | VolumeSource::File { .. } => None,

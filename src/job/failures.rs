@@ -48,6 +48,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
         RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
         RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
         RenderError::NoObjects => ("object", "hand over the data of all its objects"),
+        RenderError::ExactObjects => ("object", "leave the objects out, or compare with the finest settings"),
         RenderError::Motion => ("object", "move it less far, or scale it less"),
         RenderError::Material => ("transfer", "hand over the material of its kind"),
         RenderError::Styles { .. } => ("styles", "hand over one style for each name"),

@@ -19,6 +19,7 @@ mod lighting;
 mod masks;
 mod meshes;
 mod mirror;
+mod objects;
 mod offset;
 mod opacities;
 mod outlines;

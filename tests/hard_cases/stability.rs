@@ -68,6 +68,7 @@ static THEMES: &[&Theme] = &[
     &crate::lighting::THEME,
     &crate::strokes::THEME,
     &crate::halos::THEME,
+    &crate::objects::THEME,
 ];
 
 /// What makes the page be written.

@@ -79,6 +79,9 @@ pub enum RenderError {
     /// Data of objects that were not handed over.
     #[error("the shot has objects whose data were not handed over")]
     NoObjects,
+    /// Objects in a picture of a phantom's formula.
+    #[error("objects are drawn from voxels: there is no picture of a phantom's formula with objects")]
+    ExactObjects,
     /// A motion moves an object out of the range of numbers.
     #[error("the motion of an object leaves the range of numbers")]
     Motion,

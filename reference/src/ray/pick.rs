@@ -106,14 +106,19 @@ pub(super) fn pick<R: Real, S: Sampler<R>>(
 
 impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
     /// Describes a candidate.
-    fn picked(&self, candidate: Candidate, opacity: f64, labels: Option<&Labels<'_>>) -> Picked {
+    fn picked(&mut self, candidate: Candidate, opacity: f64, labels: Option<&Labels<'_>>) -> Picked {
+        let of_object = match candidate {
+            Candidate::Sample(k) => self.seen_of_objects(k),
+            _ => None,
+        };
         let (object, evaluator) = (&self.prepared.object, &self.evaluator);
         let (position, depth) = match candidate {
             Candidate::Sample(k) => (evaluator.ray.position(k), evaluator.ray.depth(k).to_f64()),
             Candidate::Surface(hit) => (evaluator.inside(hit.t), hit.t),
             Candidate::Mesh(hit) => (evaluator.inside(hit.t), hit.t),
         };
-        let at = evaluator.sampler.place(position);
+        // A moved object may lie outside of the volume.
+        let at = evaluator.sampler.place(if of_object.is_some() { evaluator.inside(depth) } else { position });
         let value = match (candidate, &self.prepared.surface) {
             (Candidate::Surface(_), Some(surface)) => surface.roots.iso(),
             _ => evaluator.sampler.value_at(at).to_f64(),
@@ -128,6 +133,7 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
         };
         let normal = gradient.and_then(|g| object.normal(g, evaluator.dirs.v));
         let normal = cut.map_or(normal, |cut| Some(cut.normal));
+        let (value, normal) = of_object.unwrap_or((value, normal));
         let (normal, index, mesh) = match (candidate, &self.prepared.meshes) {
             (Candidate::Mesh(hit), Some(meshes)) => {
                 let [origin, along] = evaluator.ray.line();

@@ -80,10 +80,13 @@ impl<'a> Renderer<'a> {
     /// labels and further quantities belong.
     ///
     /// # Errors
-    /// See [`Renderer::new`].
+    /// See [`Renderer::new`]; objects, which are drawn from voxels.
     pub fn exact(shot: &Shot, inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
         let start = Instant::now();
         let mut counts = Counts::default();
+        if shot.combination.is_some() {
+            return Err(RenderError::ExactObjects);
+        }
         let mut prepared: Prepared<'a, f64> = prepare(shot, &inputs, &mut counts)?;
         // Ranges of bricks are those of the voxels.
         prepared.skip = None;

@@ -10,7 +10,7 @@ fn faded(look: &str, more: &str) -> String {
     scene_of(SHELLS, &format!("{look}{object}{more}{clear}"))
 }
 
-const STYLED: &str = "[transfer]\nnodes = [{ at = 20, style = \"wax\", opacity = 0 }, { at = 120, style = \"wax\", opacity = 0.5 }]\n[contours]\n";
+const STYLED: &str = "[transfer]\nnodes = [{ at = 20, style = \"wax\", opacity = 0 }, { at = 120, style = \"wax\", opacity = 0.004 }]\n[contours]\n";
 
 /// The background's transmittance rises with γ in every pixel, by either cut, with and without a funnel.
 #[test]

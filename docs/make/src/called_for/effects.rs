@@ -527,6 +527,15 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..NOTHING
     },
     Effect {
+        name: "a moved object",
+        asked_by: "`[[object]]` with `move`",
+        base: REGULAR,
+        with: &[("object", "[{ value = [[110, 0], [130, 1]], move = [8, 0, 0] }]")],
+        // Its own samples, and rays that its ghost ends elsewhere.
+        more: &["samples"],
+        ..NOTHING
+    },
+    Effect {
         name: "a halo, seeded by the opacity",
         asked_by: "`[[halo]]`",
         base: REGULAR,

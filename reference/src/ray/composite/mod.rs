@@ -6,15 +6,17 @@
 mod cast;
 mod layers;
 mod object_ray;
+mod part_ray;
 mod path;
 pub(super) mod plane_order;
 pub(super) mod ray_order;
 mod ray_state;
 mod seed_rays;
+mod selection_ray;
 mod waiting_tile;
 
 pub(super) use cast::Cast;
 pub(super) use layers::Sums;
-pub(super) use object_ray::depth_of_part;
+pub(super) use part_ray::depth_of_part;
 pub(super) use path::Step;
 pub(super) use ray_state::RayState;

@@ -1,27 +1,17 @@
 //! The objects on one ray: where it meets them, and what the sets at a sample make of its colour and opacity ([VS-2] …
 //! [VS-4], [VS-7]).
 
-use crate::field::{Field, Sampler};
+use super::part_ray::{FieldEvaluator, FoundPart, Here, PartRay, evaluator};
+use super::selection_ray::{SelectionRay, contains};
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;
-use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
-use crate::ray::prepared_combination::{
-    PreparedCombination, PreparedIntersection, PreparedMembership, PreparedPart, PreparedSelection,
-};
-use crate::ray::sample::{Evaluator, PreparedObject, Sample, SampleAttributes};
+use crate::ray::prepared_combination::{PreparedCombination, PreparedIntersection, PreparedPart, PreparedSelection};
+use crate::ray::sample::{Sample, SampleAttributes};
 use crate::volumeshop::far_side::through_box;
 use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersections};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::shot::{Cut, Fuzzy, IntersectionPaint};
-use drypoint_scene::space::Grid;
-use drypoint_scene::view::Ray;
-
-/// An evaluator of a field of any kernel.
-type FieldEvaluator<'p, 'v, R> = Evaluator<'p, 'v, R, Field<'v, R>>;
-
-/// No samples.
-const EMPTY: [i64; 2] = [1, 0];
+use drypoint_scene::shot::{Cut, IntersectionPaint};
 
 /// The objects on a ray.
 pub(super) struct ObjectRay<'p, 'v, R: Real> {
@@ -38,42 +28,6 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
     cut_ends: Vec<i64>,
     /// Working memory: what was found of each part at a sample.
     found: Vec<Option<FoundPart<R>>>,
-}
-
-/// A selection on a ray, at its original place and where it is moved.
-struct SelectionRay {
-    here: PlacedSelection,
-    there: PlacedSelection,
-}
-
-/// A selection's grid on a ray.
-struct PlacedSelection {
-    /// The ray in the index space of the memberships.
-    ray: Option<IndexRay<f64>>,
-    /// The samples in the box of [VS-2].
-    range: [i64; 2],
-}
-
-/// A part on a ray.
-struct PartRay<'p, 'v, R: Real> {
-    part: &'p PreparedPart<'v, R>,
-    evaluator: FieldEvaluator<'p, 'v, R>,
-    /// The samples at which it can show something.
-    range: [i64; 2],
-}
-
-/// What was found of a part at a sample.
-#[derive(Clone, Copy)]
-struct FoundPart<R> {
-    sample: Sample<R>,
-    attributes: SampleAttributes<R>,
-    rgb: [R; 3],
-    /// The membership of its selection set.
-    weight: R,
-    /// μ of eq. 3.
-    mu: R,
-    /// The factor by which ghosting faded its opacity.
-    faded: R,
 }
 
 /// Colour and opacity of all objects at a sample, and the set that the layers read.
@@ -362,203 +316,4 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let cut = part.evaluator.cut_at(largest.sample.k);
         Some(cut.map_or(attributes, |cut| cut.attributes(attributes)))
     }
-}
-
-/// d of a part on the ray through a point of the picture or of a guard band about it; −∞ if it misses the part ([VS-7]).
-pub(in crate::ray) fn depth_of_part<R: Real>(
-    prepared: &Prepared<'_, R>,
-    combination: &PreparedCombination<'_, R>,
-    point: [f64; 2],
-    (part, cut): (usize, Cut),
-    counts: &mut Counts,
-) -> f64 {
-    let part = &combination.parts[part];
-    let selection = &combination.selections[part.selection];
-    let pixel = prepared.view.ray(point[0], point[1]);
-    let ray = SelectionRay::new(selection, prepared, &pixel);
-    PartRay::new(part, &ray, prepared, &pixel).depth(selection, &ray, cut, counts)
-}
-
-/// A sample of the background's volume, looked up at most once.
-struct Here<R> {
-    k: i64,
-    is_inside: bool,
-    /// None: not looked up yet; the sample is none where it is masked.
-    sample: Option<Option<Sample<R>>>,
-}
-
-impl<R: Real> Here<R> {
-    fn sample(&mut self, evaluator: &FieldEvaluator<'_, '_, R>, counts: &mut Counts) -> Option<Sample<R>> {
-        if !self.is_inside {
-            return None;
-        }
-        *self.sample.get_or_insert_with(|| look_up(evaluator, self.k, counts))
-    }
-}
-
-/// The sample of an evaluator's field on plane k; none where it is masked.
-fn look_up<R: Real>(evaluator: &FieldEvaluator<'_, '_, R>, k: i64, counts: &mut Counts) -> Option<Sample<R>> {
-    let at = evaluator.sampler.place(evaluator.ray.position(k));
-    if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
-        counts.masked += 1;
-        return None;
-    }
-    counts.samples += 1;
-    Some(Sample { k, at, s: evaluator.sampler.value_at(at) })
-}
-
-impl SelectionRay {
-    fn new<R: Real>(selection: &PreparedSelection<'_, R>, prepared: &Prepared<'_, R>, pixel: &Ray) -> Self {
-        let placed = |grid: Option<&Grid>| {
-            let ray = grid.map(|grid| IndexRay::<f64>::new(pixel, &prepared.view, &prepared.lattice, grid));
-            let range = ray.zip(selection.index_box).map(|(ray, ends)| ray.inside(ends.map(Vec3::from_glam)));
-            PlacedSelection { ray, range: range.unwrap_or(EMPTY) }
-        };
-        Self { here: placed(Some(&selection.here)), there: placed(selection.there.as_ref()) }
-    }
-}
-
-impl PlacedSelection {
-    /// f_S at sample k, which lies in the box. `value` is the data's.
-    fn membership<R: Real>(
-        &self,
-        selection: &PreparedSelection<'_, R>,
-        k: i64,
-        value: impl FnOnce() -> Option<R>,
-    ) -> R {
-        match (&selection.membership, &self.ray) {
-            (PreparedMembership::Everything, _) => R::ONE,
-            (PreparedMembership::Value(function), _) => {
-                let place = value().and_then(|s| function.locate(s));
-                place.map_or(R::ZERO, |place| place.alpha_u)
-            }
-            (PreparedMembership::Voxels(memberships), Some(ray)) => {
-                R::from_f64(memberships.at(ray.position(k).to_glam()))
-            }
-            (PreparedMembership::Voxels(_), None) => R::ZERO,
-        }
-    }
-}
-
-impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
-    fn new(
-        part: &'p PreparedPart<'v, R>,
-        selection: &SelectionRay,
-        prepared: &'p Prepared<'v, R>,
-        pixel: &Ray,
-    ) -> Self {
-        let object = &part.object;
-        let evaluator = evaluator(object, prepared, pixel);
-        let ray = evaluator.ray;
-        let placed = if part.is_moved { &selection.there } else { &selection.here };
-        let [first, last] = ray.left_by(&object.clip.planes, object.ends, ray.inside(object.ends));
-        let range = [first.max(placed.range[0]), last.min(placed.range[1])];
-        Self { part, evaluator, range: if range[0] <= range[1] { range } else { EMPTY } }
-    }
-
-    /// Its set at sample k: none where it has no members.
-    fn found(
-        &mut self,
-        k: i64,
-        (selection, placed, share): (&PreparedSelection<'_, R>, &PlacedSelection, R),
-        here: &mut Here<R>,
-        background: &FieldEvaluator<'_, '_, R>,
-        fuzzy: Fuzzy,
-        counts: &mut Counts,
-    ) -> Option<FoundPart<R>> {
-        let mut sample = None;
-        let by_value = matches!(selection.membership, PreparedMembership::Value(_));
-        if by_value {
-            sample = Some(self.look_up(k, here, background, counts)?);
-        }
-        let weight = placed.membership(selection, k, || sample.map(|sample: Sample<R>| sample.s)) * share;
-        if weight <= R::ZERO {
-            return None;
-        }
-        let sample = match sample {
-            Some(sample) => sample,
-            None => self.look_up(k, here, background, counts)?,
-        };
-        let ((rgb, alpha), attributes) = self.evaluator.shaded_by_any(sample, counts)?;
-        let mu = fuzzy::intersection(fuzzy, weight, alpha);
-        let seen = self.evaluator.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
-        (mu > R::ZERO).then_some(FoundPart { sample, attributes: seen, rgb, weight, mu, faded: R::ONE })
-    }
-
-    /// Its value at sample k: that of the background where both are one volume at one place.
-    fn look_up(
-        &self,
-        k: i64,
-        here: &mut Here<R>,
-        background: &FieldEvaluator<'_, '_, R>,
-        counts: &mut Counts,
-    ) -> Option<Sample<R>> {
-        if !self.part.can_show(self.evaluator.sampler.place(self.evaluator.ray.position(k)).cell) {
-            return None;
-        }
-        if self.part.is_of_background { here.sample(background, counts) } else { look_up(&self.evaluator, k, counts) }
-    }
-
-    /// Whether μ > 0 at sample k.
-    fn is_member(
-        &mut self,
-        k: i64,
-        (selection, placed): (&PreparedSelection<'_, R>, &PlacedSelection),
-        counts: &mut Counts,
-    ) -> bool {
-        let mut found = || {
-            let sample = look_up(&self.evaluator, k, counts)?;
-            let weight = placed.membership(selection, k, || Some(sample.s));
-            let ((_, alpha), _) = self.evaluator.shaded_by_any(sample, counts).filter(|_| weight > R::ZERO)?;
-            (alpha > R::ZERO).then_some(())
-        };
-        found().is_some()
-    }
-
-    /// d: the far side of its box, or the depth of its last sample with μ > 0; −∞ if the ray misses it ([VS-7]).
-    fn depth(
-        &mut self,
-        selection: &PreparedSelection<'_, R>,
-        ray: &SelectionRay,
-        cut: Cut,
-        counts: &mut Counts,
-    ) -> f64 {
-        let placed = if self.part.is_moved { &ray.there } else { &ray.here };
-        match cut {
-            Cut::Bounds => {
-                let through = placed.ray.zip(selection.index_box).and_then(|(ray, ends)| through_box(ray.line(), ends));
-                through.map_or(f64::NEG_INFINITY, |[_, far]| far)
-            }
-            Cut::Object => {
-                let [first, last] = self.range;
-                let is_member = |k: &i64| self.is_member(*k, (selection, placed), counts);
-                let last = (first..=last).rev().find(is_member);
-                last.map_or(f64::NEG_INFINITY, |k| self.evaluator.ray.depth(k).to_f64())
-            }
-        }
-    }
-
-    /// A colour and an opacity in the light of the part.
-    fn light(&self, unlit: ([R; 3], R), attributes: &SampleAttributes<R>) -> ([R; 3], R) {
-        self.part.object.shader.light(unlit, attributes, &self.evaluator.dirs)
-    }
-}
-
-/// The evaluator of an object on a ray.
-fn evaluator<'p, 'v, R: Real>(
-    object: &'p PreparedObject<'v, R>,
-    prepared: &Prepared<'_, R>,
-    pixel: &Ray,
-) -> FieldEvaluator<'p, 'v, R> {
-    let view = &prepared.view;
-    let ray = IndexRay::<R>::new(pixel, view, &prepared.lattice, &object.grid);
-    let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
-    let dirs = object.shader.view_dirs(v, v_eye);
-    Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes)
-}
-
-/// Whether a sample lies in a range.
-#[inline]
-fn contains([first, last]: [i64; 2], k: i64) -> bool {
-    first <= k && k <= last
 }

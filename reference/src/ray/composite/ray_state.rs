@@ -2,7 +2,7 @@
 
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
-use super::object_ray::{ObjectRay, Together};
+use super::object_ray::{Largest, ObjectRay, Together};
 use super::path::Step;
 use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
@@ -248,6 +248,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             next = end + 1;
         }
         true
+    }
+
+    /// The value and the normal at sample k of the set of objects that counts for most there; none without objects.
+    pub(crate) fn seen_of_objects(&mut self, k: i64) -> Option<(f64, Option<Vec3<R>>)> {
+        let objects = self.objects.as_mut()?;
+        let Largest { sample, attributes, .. } = objects.together(k, self.prepared, &mut Counts::default())?.largest;
+        Some((sample.s.to_f64(), attributes.normal))
     }
 
     /// Composites what objects are together at a sample.

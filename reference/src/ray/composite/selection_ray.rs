@@ -1,0 +1,64 @@
+//! A selection on a ray: the samples in its box, and f_S at them (eq. 1; [VS-2]).
+
+use crate::number::{Real, Vec3};
+use crate::ray::lattice::IndexRay;
+use crate::ray::prepared::Prepared;
+use crate::ray::prepared_combination::{PreparedMembership, PreparedSelection};
+use drypoint_scene::space::Grid;
+use drypoint_scene::view::Ray;
+
+/// No samples.
+pub(super) const EMPTY: [i64; 2] = [1, 0];
+
+/// A selection on a ray, at its original place and where it is moved.
+pub(super) struct SelectionRay {
+    pub(super) here: PlacedSelection,
+    pub(super) there: PlacedSelection,
+}
+
+/// A selection's grid on a ray.
+pub(super) struct PlacedSelection {
+    /// The ray in the index space of the memberships.
+    pub(super) ray: Option<IndexRay<f64>>,
+    /// The samples in the box of [VS-2].
+    pub(super) range: [i64; 2],
+}
+
+impl SelectionRay {
+    pub(super) fn new<R: Real>(selection: &PreparedSelection<'_, R>, prepared: &Prepared<'_, R>, pixel: &Ray) -> Self {
+        let placed = |grid: Option<&Grid>| {
+            let ray = grid.map(|grid| IndexRay::<f64>::new(pixel, &prepared.view, &prepared.lattice, grid));
+            let range = ray.zip(selection.index_box).map(|(ray, ends)| ray.inside(ends.map(Vec3::from_glam)));
+            PlacedSelection { ray, range: range.unwrap_or(EMPTY) }
+        };
+        Self { here: placed(Some(&selection.here)), there: placed(selection.there.as_ref()) }
+    }
+}
+
+impl PlacedSelection {
+    /// f_S at sample k, which lies in the box. `value` is the data's.
+    pub(super) fn membership<R: Real>(
+        &self,
+        selection: &PreparedSelection<'_, R>,
+        k: i64,
+        value: impl FnOnce() -> Option<R>,
+    ) -> R {
+        match (&selection.membership, &self.ray) {
+            (PreparedMembership::Everything, _) => R::ONE,
+            (PreparedMembership::Value(function), _) => {
+                let place = value().and_then(|s| function.locate(s));
+                place.map_or(R::ZERO, |place| place.alpha_u)
+            }
+            (PreparedMembership::Voxels(memberships), Some(ray)) => {
+                R::from_f64(memberships.at(ray.position(k).to_glam()))
+            }
+            (PreparedMembership::Voxels(_), None) => R::ZERO,
+        }
+    }
+}
+
+/// Whether a sample lies in a range.
+#[inline]
+pub(super) fn contains([first, last]: [i64; 2], k: i64) -> bool {
+    first <= k && k <= last
+}
