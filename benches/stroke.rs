@@ -20,6 +20,7 @@ use drypoint::scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// The scans, and a value of each.
@@ -73,7 +74,7 @@ fn load(folder: &str, name: &str) -> Result<Volume, String> {
     let text = format!("drypoint = 1\n[volume]\nfile = \"{name}\"\n");
     let place = Path::new(folder).join("bench.toml");
     let scene = parse(&text, &place, &Overrides::default()).map_err(|e| e.to_string())?;
-    Ok(Job::load(scene).map_err(|e| e.to_string())?.volume)
+    Ok(Arc::unwrap_or_clone(Job::load(scene).map_err(|e| e.to_string())?.volume))
 }
 
 /// A volume and its mirror image behind it: the engine's 128 slices make 256³ voxels.

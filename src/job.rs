@@ -29,6 +29,7 @@ mod failures;
 mod focus;
 mod iso;
 mod load;
+mod objects;
 mod painting;
 mod parts;
 mod provenance;
@@ -42,6 +43,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Page, Pen};
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan, Quantity};
@@ -56,7 +58,8 @@ use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
-use load::{background, function_failure, further, halo_labels, load_volume, named, styles};
+use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles};
+use objects::Objects;
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
@@ -72,7 +75,7 @@ pub struct Job {
     /// The plan of the scene as given.
     pub plan: Plan,
     /// The volume.
-    pub volume: Volume,
+    pub volume: Arc<Volume>,
     /// Counts of loading, such as voxels read for an automatic function. They are no part of a frame's counts.
     pub counts: Counts,
     target: RenderTarget,
@@ -85,8 +88,11 @@ pub struct Job {
     pub(crate) further: [Option<Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
+    /// The meshes that the scene names, in the world.
+    meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
+    objects: Objects,
 }
 
 /// The part of a scene to draw.
@@ -138,15 +144,17 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn load_for(scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
+    pub fn load_for(mut scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
         match load_volume(&scene.volume, &scene.given) {
             Ok(volume) => Self::with_volume_for(scene, volume, target),
             Err(failure) => {
                 // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
-                if calls_for_function(&plan_for(&scene, target), &scene) {
+                let plan = plan_for(&scene, target);
+                if calls_for_function(&plan, &scene) {
                     styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
+                lighting_table(&mut scene, &plan, &mut others);
                 background(&scene, target, &mut others);
                 Err(Failures::new(failure, others))
             }
@@ -157,7 +165,7 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn with_volume(scene: Scene, volume: Volume) -> Result<Self, Failures> {
+    pub fn with_volume(scene: Scene, volume: impl Into<Arc<Volume>>) -> Result<Self, Failures> {
         Self::with_volume_for(scene, volume, RenderTarget::Picture)
     }
 
@@ -165,11 +173,27 @@ impl Job {
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn with_volume_for(mut scene: Scene, volume: Volume, target: RenderTarget) -> Result<Self, Failures> {
+    pub fn with_volume_for(
+        scene: Scene,
+        volume: impl Into<Arc<Volume>>,
+        target: RenderTarget,
+    ) -> Result<Self, Failures> {
+        Self::with_shared(scene, volume.into(), target, None)
+    }
+
+    /// Loads what `target` needs for a volume that others may hold, too. Of a part of an object `main` is the grid of
+    /// `[volume]`.
+    fn with_shared(
+        mut scene: Scene,
+        volume: Arc<Volume>,
+        target: RenderTarget,
+        main: Option<&Grid>,
+    ) -> Result<Self, Failures> {
+        let automatic = scene.transfer.clone();
         // The volume, the plan over it, and the plan's warnings of eye and step.
         let volume = match scene.volume.ids {
             Ids::Values => volume,
-            Ids::Mask => volume.present(),
+            Ids::Mask => Arc::new(volume.present()),
         };
         // The plan is of the scene as given: it says that the function was found in the data.
         let mut plan = plan_for(&scene, target);
@@ -177,6 +201,7 @@ impl Job {
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
         if let Ok(view) = &view {
             plan.warn_eye(view, volume.grid());
+            plan.warn_contours(&scene, view);
         }
         if let (true, Some(step), Ok(view)) =
             (plan.has_pass(Pass::Rays), scene.sampling.step.world(volume.grid()), &view)
@@ -227,18 +252,47 @@ impl Job {
         };
         if plan.has_pass(Pass::Rays) {
             // Those of caps come last.
-            styles.extend(styles_of(&mut Clipping::new(&scene, volume.grid()).styles.iter().map(String::as_str)));
+            let of_caps = match main {
+                Some(grid) => Clipping::styles_of_part(&scene, grid),
+                None => Clipping::new(&scene, volume.grid()).styles,
+            };
+            styles.extend(styles_of(&mut of_caps.iter().map(String::as_str)));
         }
+        lighting_table(&mut scene, &plan, &mut failures);
         let background = background(&scene, target, &mut failures);
         let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
+        let meshes = if plan.has_pass(Pass::Rays) { meshes(&scene, &mut failures) } else { Vec::new() };
         Failures::check(failures)?;
         if calls_for_function && function.is_none() {
             let place = scene.given.position("transfer.nodes");
             return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
         }
-        let volume = parts::isolate(&scene, function.as_ref(), volume, &mut counts)?;
+        let volume = match scene.volume.parts {
+            None => volume,
+            Some(_) => {
+                let volume = Arc::unwrap_or_clone(volume);
+                Arc::new(parts::isolate(&scene, function.as_ref(), volume, &mut counts)?)
+            }
+        };
         let (function, labels) = (function.map(Arc::new), labels.volume);
-        let mut job = Self { scene, plan, volume, counts, target, view, function, labels, further, styles, background };
+        let mut job = Self {
+            scene,
+            plan,
+            volume,
+            counts,
+            target,
+            view,
+            function,
+            labels,
+            further,
+            styles,
+            meshes,
+            background,
+            objects: Objects::default(),
+        };
+        if job.draws_volume() && !job.scene.objects.is_empty() {
+            job.objects = Objects::load(&job, automatic.as_ref())?;
+        }
         job.pick_foci()?;
         Ok(job)
     }
@@ -360,7 +414,10 @@ impl Job {
             return Err(Failure::new(what, scene.given.position("transfer"), "add a [transfer] table"));
         };
         let facts = VolumeFacts { grid: self.volume.grid(), is_integer: is_integer(&self.volume) };
-        Shot::resolve(scene, plan, facts, function.clone(), view).map_err(|error| shot_failure(&error, scene))
+        let shot = Shot::resolve(scene, plan, facts, function.clone(), view);
+        let shot = shot.map_err(|error| shot_failure(&error, scene))?;
+        let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
+        self.objects.add_to(shot, scene, facts, range)
     }
 
     fn made_ready<'a>(
@@ -387,7 +444,9 @@ impl Job {
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &self.styles,
+            meshes: &self.meshes,
             background: self.backdrop(shot),
+            objects: self.objects.inputs(shot),
         }
     }
 

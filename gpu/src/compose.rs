@@ -6,7 +6,7 @@ use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
     GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, ray, shading,
-    style_transfer_functions, surface, transfer, volumetric_halos,
+    style_transfer_functions, surface, transfer, volumeshop, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
@@ -33,6 +33,12 @@ pub(crate) fn shader(
     let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
+    }
+    if shot.combination.is_some() {
+        return Err(GpuError::Missing { what: "objects", key: "object" });
+    }
+    if !shot.meshes.is_empty() {
+        return Err(GpuError::Missing { what: "meshes", key: "mesh" });
     }
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
@@ -150,6 +156,7 @@ fn light_of(lit: &Illumination) -> Option<DVec3> {
         Lighting::Flat => None,
         Lighting::Phong(phong) => Some(phong.light),
         Lighting::Toon(toon) => Some(toon.light),
+        Lighting::Function(function) => Some(function.light),
     }
 }
 
@@ -159,6 +166,7 @@ fn add_light(shader: &mut Shader, lit: &Illumination, of: LitColors) {
         Lighting::Flat => {}
         Lighting::Phong(phong) => shading::add(shader, phong, of),
         Lighting::Toon(toon) => interactive_volume_illustration::add_toon(shader, toon, of),
+        Lighting::Function(function) => volumeshop::add_lighting(shader, function),
     }
     if let Some(offset) = lit.silhouette {
         interactive_volume_illustration::add_silhouette(shader, offset, of);

@@ -30,6 +30,7 @@ mod surface;
 mod transfer;
 mod volume;
 mod volume_stippling;
+mod volumeshop;
 mod volumetric_halos;
 
 pub use device::{Gpu, Interpolation, Precision, WANTED};

@@ -11,7 +11,7 @@ use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumetric_halos::planes::HaloPlanes;
-use crate::{Gpu, GpuError, Precision, Volume, compose};
+use crate::{Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::measured::Measured;
@@ -60,7 +60,7 @@ pub struct Renderer<'g> {
     scales: Scales,
     rays: Rays,
     params: wgpu::Buffer,
-    data: wgpu::BindGroup,
+    data: BoundData,
     picture: PictureBuffers,
     presentation: Option<Presentation>,
     clock: Option<Clock>,
@@ -141,6 +141,9 @@ impl<'g> Renderer<'g> {
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         self.shader.block.update(&compose::camera(shot, grid)?);
+        if let (Some(table), Some(cells)) = (&self.data.lighting, volumeshop::lighting_cells(shot)) {
+            self.gpu.queue.write_buffer(table, 0, &self.precision.bytes(&cells));
+        }
         if let Some(lines) = &mut self.lines {
             lines.turn(shot, grid);
         }
@@ -232,7 +235,7 @@ impl<'g> Renderer<'g> {
 
     /// Draws rows into the picture's buffer, and copies them to the one that is read back.
     fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<(), GpuError> {
-        let Self { gpu, params, data, picture, clock, .. } = self;
+        let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
         let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress };
         match &self.rays {
             Rays::Alone(passes) => {
@@ -293,6 +296,14 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
+/// What a shader reads, on the card.
+pub(crate) struct BoundData {
+    /// Group 1.
+    pub(crate) group: wgpu::BindGroup,
+    /// The cells of the lighting table; none: the shader reads none.
+    lighting: Option<wgpu::Buffer>,
+}
+
 /// Uploads what a shader reads.
 pub(crate) fn bind_data(
     gpu: &Gpu,
@@ -300,7 +311,7 @@ pub(crate) fn bind_data(
     shader: &Shader,
     layout: &wgpu::BindGroupLayout,
     precision: Precision,
-) -> Result<wgpu::BindGroup, GpuError> {
+) -> Result<BoundData, GpuError> {
     enum Resource<'v> {
         Texture(&'v wgpu::TextureView),
         Sampler(wgpu::Sampler),
@@ -308,7 +319,8 @@ pub(crate) fn bind_data(
     }
     let mut resources = Vec::new();
     for (binding, what, data) in &shader.data {
-        let list = |bytes: &[u8]| buffer(gpu, what, bytes, wgpu::BufferUsages::STORAGE).map(Resource::List);
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let list = |bytes: &[u8]| buffer(gpu, what, bytes, usage).map(Resource::List);
         let resource = match data {
             Data::Numbers => Resource::Texture(&volume.numbers),
             Data::Voxels => Resource::Texture(volume.voxels.as_ref().unwrap_or(&volume.numbers)),
@@ -334,7 +346,12 @@ pub(crate) fn bind_data(
         };
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource });
     }
-    gpu.attempt("the scene", || {
+    let group = gpu.attempt("the scene", || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("data"), layout, entries: &entries })
-    })
+    })?;
+    let lighting = resources.into_iter().find_map(|(binding, resource)| match resource {
+        Resource::List(buffer) if binding == volumeshop::LIGHTING => Some(buffer),
+        _ => None,
+    });
+    Ok(BoundData { group, lighting })
 }

@@ -81,7 +81,22 @@ pub fn write_grey_png(size: [usize; 2], values: &[f64], bits: u8, path: &Path) -
 /// # Errors
 /// Same errors as [`write_grey_png`], except those of the file.
 pub fn encode_grey_png(size: [usize; 2], values: &[f64], bits: u8) -> Result<Vec<u8>, OutputError> {
-    if size[0].checked_mul(size[1]) != Some(values.len()) {
+    encode_numbers(size, values, bits, png::ColorType::Grayscale)
+}
+
+/// Writes quadruples of numbers in [0, 1] as an RGBA PNG of 8 or 16 bits: a table that is no colour, so that codes are the
+/// numbers, not premultiplied, and no chunk names a colour space. Row 0 is the top. The file appears whole or not at all.
+///
+/// # Errors
+/// [`OutputError::Bits`], [`OutputError::Layer`] for numbers that do not fit the size, [`OutputError::Io`].
+pub fn write_rgba_table(size: [usize; 2], values: &[[f64; 4]], bits: u8, path: &Path) -> Result<(), OutputError> {
+    atomic::write(path, &encode_numbers(size, values.as_flattened(), bits, png::ColorType::Rgba)?)
+}
+
+/// Returns a PNG whose codes are numbers in [0, 1], a pixel's one after the other.
+fn encode_numbers(size: [usize; 2], values: &[f64], bits: u8, color: png::ColorType) -> Result<Vec<u8>, OutputError> {
+    let pixels = size[0].checked_mul(size[1]);
+    if pixels.and_then(|pixels| pixels.checked_mul(color.samples())) != Some(values.len()) {
         let text = format!("{} numbers for {}x{} pixels", values.len(), size[0], size[1]);
         return Err(fault(LayerKind::Beauty, text));
     }
@@ -92,7 +107,7 @@ pub fn encode_grey_png(size: [usize; 2], values: &[f64], bits: u8) -> Result<Vec
         _ => return Err(OutputError::Bits { bits }),
     };
     let mut info = png::Info::with_size(side(size[0], LayerKind::Beauty)?, side(size[1], LayerKind::Beauty)?);
-    info.color_type = png::ColorType::Grayscale;
+    info.color_type = color;
     info.bit_depth = depth;
     let mut bytes = Vec::new();
     write_chunks(&mut bytes, info, &data).map_err(|error| fault(LayerKind::Beauty, error.to_string()))?;

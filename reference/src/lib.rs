@@ -3,10 +3,12 @@
 //! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
 
 mod accumulator;
+mod bilinear;
 pub mod dot_colors;
 pub mod field;
 pub mod interactive_volume_illustration;
 pub mod labels;
+mod mesh;
 pub mod number;
 pub mod ray;
 pub mod shading;

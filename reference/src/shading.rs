@@ -35,12 +35,10 @@ impl<R: Real> Phong<R> {
         }
     }
 
-    /// Ĥ = (L + v)/‖L + v‖, 0 where L = −v. Both are constant along a ray.
+    /// Ĥ for a direction to the eye. Both are constant along a ray.
     #[inline(always)]
     pub fn half_vector<A: Arithmetic<Number = R>>(&self, v: Vec3<A>) -> Vec3<A> {
-        let half = Vec3::constant(v.x, self.light) + v;
-        let (length, zero) = (half.length(), v.x.zero());
-        Vec3::select(zero.below(length), half * (length.one() / length), Vec3::new(zero, zero, zero))
+        half_vector(self.light, v)
     }
 
     /// c = c_u·(k_a + k_d·max(0, N·L)) + k_s·max(0, N·Ĥ)^s, the specular term 0 where N·L ≤ 0; white light, straight
@@ -66,6 +64,14 @@ impl<R: Real> Phong<R> {
         }
         rgb
     }
+}
+
+/// Ĥ = (L + v)/‖L + v‖, 0 where L = −v.
+#[inline(always)]
+pub fn half_vector<A: Arithmetic>(light: Vec3<A::Number>, v: Vec3<A>) -> Vec3<A> {
+    let half = Vec3::constant(v.x, light) + v;
+    let (length, zero) = (half.length(), v.x.zero());
+    Vec3::select(zero.below(length), half * (length.one() / length), Vec3::new(zero, zero, zero))
 }
 
 #[cfg(test)]

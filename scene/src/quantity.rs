@@ -25,11 +25,13 @@ pub enum Quantity {
     Surface,
     /// The normal there.
     SurfaceNormal,
+    /// The place where a ray first meets a mesh ([VS-12]).
+    Mesh,
 }
 
 impl Quantity {
     /// Every quantity.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Value,
         Self::Gradient,
         Self::PreviousNormal,
@@ -41,6 +43,7 @@ impl Quantity {
         Self::FurtherVolume,
         Self::Surface,
         Self::SurfaceNormal,
+        Self::Mesh,
     ];
 
     /// Its name.
@@ -57,6 +60,7 @@ impl Quantity {
             Self::FurtherVolume => "further volume",
             Self::Surface => "first root",
             Self::SurfaceNormal => "its normal",
+            Self::Mesh => "nearest triangle",
         }
     }
 
@@ -73,6 +77,7 @@ impl Quantity {
             Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a visible sample",
             Self::Surface => "one search a ray, through the bricks that can hold the value",
             Self::SurfaceNormal => "one gradient a ray that meets the surface",
+            Self::Mesh => "one search a ray, through a tree of the triangles",
         }
     }
 
@@ -95,16 +100,15 @@ impl Quantity {
             Self::Label => "one look at the labels a seed sample",
             Self::Distance => "one norm a seed sample",
             Self::LabelDistance | Self::FurtherVolume => "one trilinear reconstruction a seed sample",
-            Self::Value | Self::Surface | Self::SurfaceNormal => self.adds(),
+            Self::Value | Self::Surface | Self::SurfaceNormal | Self::Mesh => self.adds(),
         }
     }
 
     /// The quantity that it is made of.
     pub(crate) fn prerequisite(self) -> Option<Self> {
         match self {
-            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume | Self::Surface => {
-                None
-            }
+            Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume => None,
+            Self::Surface | Self::Mesh => None,
             Self::SurfaceNormal => Some(Self::Surface),
             Self::Gradient => Some(Self::Value),
             // A sample without a normal has no curvature, and that is tested on `sampling.gradient` too ([PREC-3]).

@@ -85,7 +85,7 @@ enum Verb {
     Points(points::PointsArgs),
     /// Draw a scene or a volume in hatching or outlines, as SVG, PDF, PNG, EXR or a list of strokes
     Strokes(strokes::StrokesArgs),
-    /// List the styles of a theme, write a preview sheet, or make a style from a picture
+    /// List the styles of a theme or lighting functions, write a preview sheet, or make a style from a picture
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),

@@ -102,6 +102,7 @@ fn object([x, y]: [usize; 2], picked: &Picked, names: &LabelNames) -> serde_json
         "normal": picked.normal.map(three),
         "opacity": picked.opacity,
         "on_surface": picked.on_surface,
+        "mesh": picked.mesh,
     });
     if let (Some(id), Some(object)) = (picked.label, object.as_object_mut()) {
         object.insert("label".into(), json!(id));
@@ -136,7 +137,11 @@ fn text(picked: &[([usize; 2], Option<Picked>)], names: &LabelNames, grid: &Grid
 fn block([x, y]: [usize; 2], picked: &Picked, names: &LabelNames, voxel: f64) -> String {
     let row = |v: DVec3, unit: f64| v.to_array().map(|x| coordinate(x, unit)).join("  ");
     let normal = picked.normal.map_or("none".into(), |n| row(n, 1.0));
-    let surface = if picked.on_surface { ", on the iso-surface" } else { "" };
+    let surface = match picked.mesh {
+        Some(mesh) => format!(", of the volume; the place is on mesh {mesh}"),
+        None if picked.on_surface => ", on the iso-surface".into(),
+        None => String::new(),
+    };
     let mut text = format!(
         "pixel      {x},{y}\nworld      {}\nindex      {}\nvalue      {}{surface}\neye depth  {}\nnormal     {normal}\n\
          opacity    {} up to here\n",

@@ -1,6 +1,7 @@
-//! The verb `styles`: the styles of a theme, and new ones from pictures.
+//! The verb `styles`: the styles of a theme, new ones from pictures, and the presets of lighting functions.
 
 mod extract;
+mod lighting;
 
 use super::report::{note, print};
 use super::{Done, Outcome, Talk, output_path};
@@ -35,6 +36,8 @@ pub(super) struct StylesArgs {
 enum StylesVerb {
     /// Make a style from a part of a picture
     Extract(extract::ExtractArgs),
+    /// List the presets of lighting functions. With -o, write a sheet of lit spheres, or a preset's table
+    Lighting(lighting::LightingArgs),
 }
 
 /// Returns the help of `--theme` with the names of themes.
@@ -45,8 +48,10 @@ fn theme_help() -> String {
 
 impl StylesArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        if let Some(StylesVerb::Extract(verb)) = self.what {
-            return verb.run(talk);
+        match self.what {
+            Some(StylesVerb::Extract(verb)) => return verb.run(talk),
+            Some(StylesVerb::Lighting(verb)) => return verb.run(talk),
+            None => {}
         }
         let folder = PathBuf::from(&self.theme);
         if let Some(output) = &self.output {

@@ -22,9 +22,11 @@ pub(super) fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
         ShotError::NotSmooth(_) => (NOT_SMOOTH.0.to_owned(), NOT_SMOOTH.1),
         ShotError::Length { key } => ((*key).to_owned(), "give it in world units or in voxels"),
         ShotError::NoIso => ("surface.iso".to_owned(), "give it a value"),
+        ShotError::NoLightingTable => ("shading.table".to_owned(), "load the scene as a job, which reads it"),
         ShotError::FocusInPixels { halo } => {
             (format!("halo[{halo}].seed.focus.pixels"), "give points of the world in its place: at = [[x, y, z]]")
         }
+        ShotError::Motion => ("object".to_owned(), "move it less far, or scale it less"),
         ShotError::LabelName { halo, label } => (format!("halo[{halo}].seed.labels[{label}]"), "write the label's id"),
     };
     Failure::new(error, scene.given.position(&key), remedy)
@@ -45,6 +47,8 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
         RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
         RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
         RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
+        RenderError::NoObjects => ("object", "hand over the data of all its objects"),
+        RenderError::Motion => ("object", "move it less far, or scale it less"),
         RenderError::Material => ("transfer", "hand over the material of its kind"),
         RenderError::Styles { .. } => ("styles", "hand over one style for each name"),
     };

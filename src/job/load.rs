@@ -7,13 +7,18 @@ use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::file::Given;
+use drypoint_scene::memory;
+use drypoint_scene::mesh::{self, TriangleMesh};
 use drypoint_scene::phantom::{self, PhantomError};
-use drypoint_scene::style::{Style, StyleError, load as load_styles};
-use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, VolumeSource, VolumeTable};
+use drypoint_scene::plan::{Pass, Plan};
+use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
+use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, TransferKind, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::FunctionError;
 use drypoint_scene::volume::labels::LabelNames;
 use drypoint_scene::volume::read::Fault;
 use drypoint_scene::volume::{Volume, read};
+use std::fmt::Display;
+use std::sync::Arc;
 
 /// Reads or generates a scene's volume.
 pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
@@ -67,6 +72,25 @@ pub(super) fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Vol
     })
 }
 
+/// Reads the meshes of a scene and moves them to their places. Errors go to `failures`.
+pub(super) fn meshes(scene: &Scene, failures: &mut Vec<Failure>) -> Vec<TriangleMesh> {
+    let mut meshes = Vec::with_capacity(scene.meshes.len());
+    for (i, table) in scene.meshes.iter().enumerate() {
+        let read = mesh::read::read(&table.file).map_err(|error| {
+            let place = format!("{}, {}", table.file.display(), scene.given.position(&format!("mesh[{i}].file")));
+            Failure::new(&error, place, error.remedy())
+        });
+        let placed = read.and_then(|mesh| {
+            let map = table.motion.map(mesh.centre());
+            let mesh = if table.motion.is_moved() { mesh.moved(&map) } else { Ok(mesh) };
+            let key = format!("mesh[{i}]");
+            mesh.map_err(|fault| Failure::new(fault, scene.given.position(&key), "move or scale the mesh less"))
+        });
+        meshes.extend(placed.map_err(|failure| failures.push(failure)).ok());
+    }
+    meshes
+}
+
 /// Returns the names of the nodes' styles.
 pub(super) fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
     transfer.all_nodes().filter_map(|node| match &node.color {
@@ -91,7 +115,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
 }
 
 /// Returns the remedy of a label's name that nothing has.
-fn known_label(name: &str, names: &LabelNames) -> String {
+pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
     match names.nearest(name) {
         Some(nearest) => format!("write {nearest:?}"),
         None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),
@@ -138,6 +162,23 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
         _ => "styles.theme".into(),
     };
     Failure::new(error, scene.given.position(&key), error.help())
+}
+
+/// Reads the lighting table of a file, if rays are lit by one. Errors go to `failures`.
+pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<Failure>) {
+    let is_lit = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular);
+    let Some(shading) = scene.shading.as_mut().filter(|_| is_lit && plan.has_pass(Pass::Rays)) else { return };
+    let reads = shading.lighting_file().is_some();
+    let Some(file) = shading.table.as_mut().filter(|_| reads) else { return };
+    let failed = |what: &dyn Display, remedy| {
+        let what = format!("the lighting table {}: {what}", file.path.display());
+        Failure::new(what, scene.given.position("shading.table"), remedy)
+    };
+    let read = memory::read(&file.path).map_err(|error| failed(&error, "give a picture that may be read"));
+    match read.and_then(|bytes| decode_lighting_table(&bytes).map_err(|fault| failed(&fault, fault.help()))) {
+        Ok(table) => file.table = Some(Arc::new(table)),
+        Err(failure) => failures.push(failure),
+    }
 }
 
 /// Reads the picture behind the volume, if the scene has one. Errors go to `failures`.

@@ -3,6 +3,7 @@
 use crate::common::{Stage, ball, orthographic, perspective, style};
 use drypoint::reference::ray::bounds::RayOrigin;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::lighting::LightingPreset;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
     Axis, BlendSpace, Clip, Contours, Iso, Kappa, Length, Node, NodeColor, Number, Over, Row, RowAt, Shading,
@@ -80,6 +81,13 @@ fn kinds() -> Vec<(&'static str, Stage)> {
             shaded(|shading| {
                 shading.model = ShadingModel::Toon;
                 shading.silhouette = Some(SilhouetteShading { offset: 0.45 });
+            }),
+        ),
+        (
+            "lighting function",
+            shaded(|shading| {
+                shading.model = ShadingModel::Function;
+                shading.preset = Some(LightingPreset::MetalContours);
             }),
         ),
         ("view-dependent opacity", shaded(|shading| shading.view_opacity = 1.0)),

@@ -12,6 +12,7 @@ mod generated;
 mod halo;
 mod info;
 mod interrupt;
+mod mesh;
 mod output;
 mod overrides;
 mod paint;

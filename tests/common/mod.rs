@@ -9,12 +9,13 @@ pub(crate) mod rod;
 pub(crate) mod strip;
 
 use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
-use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
 use drypoint::reference::suggest;
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::fragments::Fragments;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::mesh::TriangleMesh;
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Plan;
 use drypoint::scene::shot::{Shot, VolumeFacts};
@@ -88,6 +89,8 @@ pub(crate) struct Stage {
     pub(crate) labels: Option<LabelVolume>,
     /// Further volumes that the function is over.
     pub(crate) further: [Option<Volume>; 2],
+    /// Meshes, one for each of the scene.
+    pub(crate) meshes: Vec<TriangleMesh>,
     /// A background picture, linear premultiplied.
     pub(crate) behind: Option<Vec<Rgba>>,
 }
@@ -114,7 +117,7 @@ impl Stage {
         scene.picture.samples = RaysPerPixel::Across(1);
         scene.picture.background = Background::None;
         scene.volume.gradient_range = GradientRange::Fixed([0.0, 1.0]);
-        Self { scene, volume, styles, labels: None, further: [None, None], behind: None }
+        Self { scene, volume, styles, labels: None, further: [None, None], meshes: Vec::new(), behind: None }
     }
 
     /// The same with changes to the scene.
@@ -257,7 +260,9 @@ impl Stage {
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
+            meshes: &self.meshes,
             background,
+            objects: ObjectInputs::default(),
         })
     }
 }

@@ -119,6 +119,44 @@ fn tones_and_silhouettes() {
 }
 
 #[test]
+fn lighting_functions() {
+    let of = |preset: &str, more: &str| {
+        format!("[shading]\nmodel = \"lighting-function\"\npreset = \"{preset}\"\nlight = [-0.5, 0.4, 0.7]\n{more}")
+    };
+    let names = ["blinn-phong", "blinn-phong-contours", "cartoon-contours", "metal-contours", "gradient", "tone"];
+    let mut variants: Vec<(String, String)> = names.map(|name| (name.to_owned(), of(name, ""))).into();
+    let more = |name: &str, more: &str| (name.to_owned(), of("metal-contours", more));
+    variants.extend([
+        more("printed", "contour = \"printed\"\n"),
+        more("divisor at least 0.5", "divisor_floor = 0.5\n"),
+        more("silhouettes and view opacity", "view_opacity = 0.7\n[shading.silhouette]\n"),
+        more("orthographic", "[camera]\nprojection = \"orthographic\"\n"),
+        more("cut", "[[clip]]\npoint = [15, 15, 15]\nnormal = [0, -1, 0]\nspace = \"index\"\n"),
+    ]);
+    compare(&variants.iter().map(|(name, more)| (&**name, &**more)).collect::<Vec<_>>());
+}
+
+/// Contours under light from the world depend on the camera: a renderer that is turned draws those of a new one.
+#[test]
+fn contours_follow_the_camera() {
+    let Some(gpu) = gpu() else { return };
+    let of = |direction: &str| {
+        load(&format!(
+            "{TORUS}[camera]\ndirection = {direction}\n[shading]\nmodel = \"lighting-function\"\n\
+             preset = \"blinn-phong-contours\"\nlight = {{ world = [1, 0.2, 0.1] }}\n"
+        ))
+    };
+    let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(of);
+    let [on_first, on_second] = [&first, &second].map(|job| GpuJob::new(job, &gpu, Precision::Single).unwrap());
+    let mut turned = on_first.renderer().unwrap();
+    let before = turned.frame(&|_| ()).unwrap();
+    turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
+    let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
+    assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
+    assert_ne!(before.layers, fresh.layers);
+}
+
+#[test]
 fn clip_planes() {
     compare(&[
         ("plane", "[shading]\n[[clip]]\npoint = [15, 15, 15]\nnormal = [0, -1, 0]\nspace = \"index\"\n"),

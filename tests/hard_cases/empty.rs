@@ -2,7 +2,7 @@
 
 use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain};
 use crate::stability::{Case, Theme};
-use drypoint::reference::ray::{Backdrop, Inputs, Renderer};
+use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Plan;
@@ -147,5 +147,10 @@ fn made(scene: &Scene, volume: &Volume) -> Result<(), ()> {
     let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
     let shot = Shot::resolve(scene, &plan, facts, Arc::new(function), view).map_err(|_| ())?;
     let (labels, further, styles) = (None, [None, None], &[][..]);
-    Renderer::new(&shot, Inputs { volume, labels, further, styles, background }).map(drop).map_err(|_| ())
+    Renderer::new(
+        &shot,
+        Inputs { volume, labels, further, styles, meshes: &[], background, objects: ObjectInputs::default() },
+    )
+    .map(drop)
+    .map_err(|_| ())
 }

@@ -60,10 +60,12 @@ static THEMES: &[&Theme] = &[
     &crate::borders::THEME,
     &crate::small::THEME,
     &crate::masks::THEME,
+    &crate::meshes::THEME,
     &crate::empty::THEME,
     &crate::surfaces::THEME,
     &crate::stipples::THEME,
     &crate::toon::THEME,
+    &crate::lighting::THEME,
     &crate::strokes::THEME,
     &crate::halos::THEME,
 ];

@@ -2,7 +2,7 @@
 
 use crate::common::{Stage, corrected, on, orthographic, perspective};
 use crate::stability::{Case, Theme, U, rounding, worst};
-use drypoint::reference::ray::{Backdrop, Inputs, RenderError, Renderer};
+use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, RenderError, Renderer};
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
@@ -164,7 +164,9 @@ fn too_many_planes() -> f64 {
                     labels: None,
                     further: [None, None],
                     styles: &[],
+                    meshes: &[],
                     background: Backdrop::None,
+                    objects: ObjectInputs::default(),
                 };
                 let made = Renderer::new(&shot.resolved(shot.view()), inputs);
                 taken += usize::from(!matches!(made, Err(RenderError::TooManyPlanes { .. })));

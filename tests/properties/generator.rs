@@ -6,6 +6,7 @@ use crate::common::random::Random;
 use crate::common::{LAYERS, Stage, perspective, plain, style};
 use drypoint::scene::color::Rgba;
 use drypoint::scene::glam::{DMat3, DVec3};
+use drypoint::scene::lighting::{ContourRule, LightingPreset};
 use drypoint::scene::phantom::{self, Allowed};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
@@ -323,7 +324,11 @@ fn shading(r: &mut Random, scene: &mut Scene) {
             specular: r.pick(&[0.0, 0.3, 2.0]),
             shininess: r.pick(&[0.0, 1.0, 17.3]),
             light: if r.once_in(2) { None } else { Some(r.pick(&directions)) },
-            model: r.pick(&[ShadingModel::Phong, ShadingModel::Phong, ShadingModel::Toon]),
+            model: r.pick(&[ShadingModel::Phong, ShadingModel::Phong, ShadingModel::Toon, ShadingModel::Function]),
+            preset: r.pick(&LightingPreset::ALL.map(Some)),
+            table: None,
+            contour: r.pick(&[ContourRule::Exact, ContourRule::Printed]),
+            divisor_floor: r.pick(&[1.0 / 64.0, 1e-3, 1.0]),
             toon: if r.once_in(2) { Some(toon(r)) } else { None },
             silhouette: silhouette(r),
             view_opacity: r.pick(&[0.0, 0.0, 0.7, 30.0]),

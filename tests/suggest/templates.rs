@@ -29,5 +29,5 @@ fn a_template_for_one_head_works_on_another() {
         assert!(m.finite && (0.12..=0.40).contains(&m.covered), "{head}: {m:?}");
     }
     // The same percentiles are values that are far from each other.
-    assert!(skins[0].iter().zip(&skins[1]).all(|(a, b)| a[0] == b[0] && a[1] > 1.3 * b[1]), "{skins:?}");
+    assert!(skins[0].iter().zip(&skins[1]).all(|(a, b)| a[0] == b[0] && (a[1] - b[1]).abs() > 10.0), "{skins:?}");
 }

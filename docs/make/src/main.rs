@@ -4,6 +4,7 @@ mod accuracy;
 mod blue_noise;
 mod called_for;
 mod commands;
+mod contour_error;
 mod cost;
 mod files;
 mod halos;
@@ -31,6 +32,7 @@ const PAGES: &[Page] = &[
     ("blue-noise", blue_noise::write),
     ("called-for", called_for::write),
     ("commands", commands::run),
+    ("contour-error", contour_error::write),
     ("cost", cost::write),
     ("figure-1", painting::figure::write),
     ("halos", halos::write),

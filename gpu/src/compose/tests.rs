@@ -96,6 +96,16 @@ const CHOICES: &[Choice] = &[
             &[("transfer", RED), ("transfer", "table = 16"), ("shading", "")],
             &[("transfer", RED), ("shading", "shininess = 7.5\nview_opacity = 0.5")],
             &[("transfer", RED), ("shading", "model = \"toon\""), ("shading.silhouette", "")],
+            &[
+                ("transfer", RED),
+                ("shading", "model = \"lighting-function\"\npreset = \"metal-contours\"\nview_opacity = 0.5"),
+            ],
+            &[
+                ("transfer", COLORED_ROWS),
+                ("transfer", "over = [\"value\", \"gradient-magnitude\"]"),
+                ("shading", "model = \"lighting-function\""),
+                ("shading.silhouette", ""),
+            ],
             &[("transfer", COLORED_ROWS), ("transfer", "over = [\"value\", \"gradient-magnitude\"]")],
             &[("transfer", COLORED_ROWS), ("transfer", "over = [\"k1\", \"mean\"]"), ("shading", "")],
             &[("transfer", WAX)],

@@ -10,5 +10,7 @@ pub(crate) const DOUBLE: Module = module!("double");
 pub(crate) const NUMBER: Module = module!("number");
 /// Transcendental functions.
 pub(crate) const ELEMENTARY: Module = module!("elementary");
+/// Bilinear interpolation.
+pub(crate) const BILINEAR: Module = module!("bilinear");
 /// sRGB.
 pub(crate) const COLOR: Module = module!("color");

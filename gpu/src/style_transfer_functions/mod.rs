@@ -1,6 +1,6 @@
 //! Bruckner and Gröller, Style Transfer Functions for Illustrative Volume Rendering, Computer Graphics Forum 26(3), 2007.
 
-use crate::number::{COLOR, ELEMENTARY};
+use crate::number::{BILINEAR, COLOR, ELEMENTARY};
 use crate::ray::EYE_NORMAL;
 use crate::shader::{Data, Module, Shader, module};
 use drypoint_scene::math;
@@ -105,7 +105,7 @@ pub(crate) fn add_spheres(shader: &mut Shader, clipping: &Clipping, styles: [&[S
         }
         shader.bind(12, "the levels of mip-maps", Data::Reals(lambdas));
     }
-    shader.add(&[module!("sphere_map")]);
+    shader.add(&[BILINEAR, module!("sphere_map")]);
     shader.bind(10, "the styles", Data::Texels(texels));
     shader.bind(11, "the list of styles", Data::Words(maps.into_flattened()));
     if !of_caps.is_empty() {

@@ -76,7 +76,7 @@ impl<'g> HiddenPoints<'g> {
         let shader = shader(hiding, precision);
         let text = edit(shader.text_of_search(precision));
         let data_layout = data_layout(gpu, &shader)?;
-        let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
+        let data = bind_data(gpu, volume, &shader, &data_layout, precision)?.group;
         let entries = [list_entry(0, true), list_entry(1, false), list_entry(2, true)];
         let layout = gpu.attempt("the shader", || {
             gpu.device

@@ -2,6 +2,7 @@
 
 mod background;
 mod exr;
+mod intersection_picture;
 mod png;
 
 use crate::OutputError;
@@ -10,6 +11,7 @@ use drypoint_scene::picture::Picture;
 use std::path::Path;
 
 pub use background::{read_background, stretch};
+pub use intersection_picture::read_intersection_picture;
 
 /// A picture of any origin, as named channels of numbers, row by row from the top.
 ///

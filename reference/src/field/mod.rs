@@ -48,9 +48,10 @@ use drypoint_scene::volume::{Bricks, Volume};
 use gradient::regression::Regression;
 use kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use stencil::Stencils;
 
-/// A volume with a reconstruction: what the samples read.
+/// A volume with a reconstruction: what the samples read. Clones share what was prepared.
 #[derive(Clone, Debug)]
 pub struct Field<'v, R> {
     volume: &'v Volume,
@@ -79,9 +80,9 @@ pub struct Field<'v, R> {
 #[derive(Clone, Debug)]
 enum KernelData<R> {
     Trilinear,
-    Bspline(Coefficients<R>),
+    Bspline(Arc<Coefficients<R>>),
     BsplineSmooth,
-    Bspline5(Coefficients<R>),
+    Bspline5(Arc<Coefficients<R>>),
     CatmullRom,
 }
 
@@ -91,7 +92,7 @@ enum Second<R> {
     NotPrepared,
     Analytic,
     Central,
-    Gaussian(Coefficients<R>),
+    Gaussian(Arc<Coefficients<R>>),
 }
 
 impl<'v, R: Real> Field<'v, R> {
@@ -140,16 +141,18 @@ impl<'v, R: Real> Field<'v, R> {
             no_normal_below,
             kernel: match how.kernel {
                 Kernel::Trilinear => KernelData::Trilinear,
-                Kernel::Bspline => KernelData::Bspline(Coefficients::of_voxels(&stencils, 1).prefilter()),
+                Kernel::Bspline => KernelData::Bspline(Arc::new(Coefficients::of_voxels(&stencils, 1).prefilter())),
                 Kernel::BsplineSmooth => KernelData::BsplineSmooth,
-                Kernel::Bspline5 => KernelData::Bspline5(Coefficients::of_voxels(&stencils, 2).prefilter()),
+                Kernel::Bspline5 => KernelData::Bspline5(Arc::new(Coefficients::of_voxels(&stencils, 2).prefilter())),
                 Kernel::CatmullRom => KernelData::CatmullRom,
             },
             regression: (how.gradient == GradientEstimator::Regression && rung >= Rung::Gradient)
                 .then(|| Regression::new(grid)),
             second: match how.hessian {
                 _ if rung < Rung::Hessian => Second::NotPrepared,
-                HessianEstimator::Gaussian => Second::Gaussian(hessian::gaussian::smoothed(&stencils, &smoothed)),
+                HessianEstimator::Gaussian => {
+                    Second::Gaussian(Arc::new(hessian::gaussian::smoothed(&stencils, &smoothed)))
+                }
                 HessianEstimator::Analytic => Second::Analytic,
                 HessianEstimator::Auto | HessianEstimator::Central => Second::Central,
             },

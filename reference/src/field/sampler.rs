@@ -4,6 +4,7 @@ use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::Place;
 use super::{Field, GradientEstimator, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
+use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 /// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
@@ -270,6 +271,34 @@ impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
         let (gradient, hessian) = index_second(self, at, Field::estimated_second);
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
+    }
+}
+
+/// A field decides on its kernel at every call. That is slower than its [`Sampled`], and one type for fields of any kernel.
+impl<R: Real> Sampler<R> for Field<'_, R> {
+    #[inline]
+    fn place(&self, p: Vec3<R>) -> Place<R> {
+        self.cells.locate(p)
+    }
+
+    #[inline]
+    fn value_at(&self, at: Place<R>) -> R {
+        with_sampler!(self, |s| s.value_at(at))
+    }
+
+    #[inline]
+    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
+        with_sampler!(self, |s| s.gradient_at(at))
+    }
+
+    #[inline]
+    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        with_sampler!(self, |s| s.hessian_at(at))
+    }
+
+    #[inline]
+    fn has_one_gradient(&self) -> bool {
+        self.has_one_gradient()
     }
 }
 

@@ -4,12 +4,14 @@ use super::lattice::MOST_SAMPLES;
 use crate::field::FieldError;
 use crate::transfer::NodesError;
 pub use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::style::Style;
-use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
+use drypoint_scene::volume::{Selection, Volume};
 
 /// The data that a shot names.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Inputs<'a> {
     /// The volume.
     pub volume: &'a Volume,
@@ -20,8 +22,25 @@ pub struct Inputs<'a> {
     /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names),
     /// then those that caps name, in the order of [`Clipping::styles`](drypoint_scene::shot::Clipping::styles).
     pub styles: &'a [Style],
+    /// The meshes of the shot, in its order, in the world ([VS-12]).
+    pub meshes: &'a [TriangleMesh],
     /// The background.
     pub background: Backdrop<'a>,
+    /// The data of objects; by default of none.
+    pub objects: ObjectInputs<'a>,
+}
+
+/// The data of a shot's objects ([VS-2]).
+#[derive(Clone, Debug, Default)]
+pub struct ObjectInputs<'a> {
+    /// The data of each of [`Combination::parts`](drypoint_scene::shot::Combination::parts).
+    pub parts: Vec<Inputs<'a>>,
+    /// The memberships of each of [`Combination::selections`](drypoint_scene::shot::Combination::selections) that is
+    /// [`Voxels`](drypoint_scene::shot::Membership::Voxels).
+    pub selections: Vec<Option<&'a Selection>>,
+    /// The picture of each of [`Combination::intersections`](drypoint_scene::shot::Combination::intersections) whose colour is
+    /// one.
+    pub pictures: Vec<Option<&'a IntersectionPicture>>,
 }
 
 /// A picture that cannot be made.
@@ -57,6 +76,12 @@ pub enum RenderError {
         /// The label.
         id: u32,
     },
+    /// Data of objects that were not handed over.
+    #[error("the shot has objects whose data were not handed over")]
+    NoObjects,
+    /// A motion moves an object out of the range of numbers.
+    #[error("the motion of an object leaves the range of numbers")]
+    Motion,
     /// The function and the material do not fit.
     #[error("material and transfer function do not match: one has colours, the other styles")]
     Material,

@@ -1,8 +1,9 @@
-//! Lines inside a translucent volume ([HATCH-14] d), and cuts ([RAY-8]): rays with either are cast alone, the others side
-//! by side.
+//! Lines inside a translucent volume ([HATCH-14] d), objects ([VS-2]), and cuts ([RAY-8]): rays with any of them are cast
+//! alone, the others side by side.
 
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
+use super::prepared_combination::PreparedCombination;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 
@@ -29,10 +30,11 @@ pub(super) fn cast_apart<R: Real>(
     casts.extend(is_alone.iter().filter_map(next));
 }
 
-/// Whether the ray through a point has lines on it, or a cut.
+/// Whether the ray through a point has lines on it, objects, or a cut.
 fn is_alone<R: Real>(prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
     let (view, object) = (&prepared.view, &prepared.object);
-    !prepared.lines_at(point).is_empty() || {
+    let meets = |objects: &PreparedCombination<'_, R>| objects.meets(prepared, point);
+    !prepared.lines_at(point).is_empty() || prepared.combination.as_ref().is_some_and(meets) || {
         let ray = || IndexRay::<R>::new(&view.ray(point[0], point[1]), view, &prepared.lattice, object.volume.grid());
         !object.clip.planes.is_empty() && ray().cut_sample(&object.clip.planes, object.ends).is_some()
     }

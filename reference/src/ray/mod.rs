@@ -16,13 +16,15 @@ mod pick;
 mod pixel_sum;
 mod prepare;
 mod prepared;
+mod prepared_combination;
 mod prepared_halos;
+mod prepared_meshes;
 mod prepared_surface;
 mod refinement;
 mod render;
 mod sample;
 mod tile_work;
 
-pub use inputs::{Backdrop, Inputs, RenderError};
+pub use inputs::{Backdrop, Inputs, ObjectInputs, RenderError};
 pub use pick::{Picked, VISIBLE};
 pub use render::Renderer;

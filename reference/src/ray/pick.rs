@@ -5,6 +5,7 @@ use super::prepared::Prepared;
 use super::sample::need::Anything;
 use crate::field::Sampler;
 use crate::labels::Labels;
+use crate::mesh::MeshHit;
 use crate::number::{Real, Vec3};
 use crate::surface::SurfaceHit;
 use drypoint_scene::counts::Counts;
@@ -34,6 +35,9 @@ pub struct Picked {
     pub label: Option<u32>,
     /// Whether the place is on the opaque iso-surface.
     pub on_surface: bool,
+    /// The mesh on which the place is, by its place in the list; none: it is on none. Value and label are then those of
+    /// the volume at the nearest place in its box.
+    pub mesh: Option<usize>,
 }
 
 /// A candidate on a ray.
@@ -43,6 +47,8 @@ enum Candidate {
     Sample(i64),
     /// The iso-surface or a cut of it.
     Surface(SurfaceHit),
+    /// A mesh.
+    Mesh(MeshHit),
 }
 
 impl Candidate {
@@ -51,6 +57,7 @@ impl Candidate {
         match *step {
             Step::Samples([k, _]) | Step::Share { k, .. } => Some(Self::Sample(k)),
             Step::Surface { hit, .. } => Some(Self::Surface(hit)),
+            Step::Mesh { hit, .. } => Some(Self::Mesh(hit)),
             Step::Line { .. } => None,
         }
     }
@@ -59,7 +66,7 @@ impl Candidate {
 /// Picks the first visible structure on the ray through a point, in pixels from the top left corner.
 ///
 /// That is the first sample at which the accumulated opacity A reaches [`VISIBLE`]. If the whole ray stays below, it is the
-/// sample with the largest weight, and of equal ones the first. The iso-surface is a sample at its own depth. Both rules
+/// sample with the largest weight, and of equal ones the first. The iso-surface and meshes are samples at their own depths. Both rules
 /// converge to a place on the ray as the step becomes smaller.
 ///
 /// Lines inside the picture are passed over. Returns none if the ray sees nothing, or if the point is outside the picture.
@@ -75,8 +82,8 @@ pub(super) fn pick<R: Real, S: Sampler<R>>(
     }
     let mut state = RayState::new(prepared, sampler, point);
     let mut steps = Vec::new();
-    state.path_among(&[], None, &mut steps);
     let mut counts = Counts::default();
+    state.path_among((point, &[]), None, &mut steps, &mut counts);
     // The heaviest candidate so far: its weight, and A after it.
     let mut heaviest: Option<(Candidate, [f64; 2])> = None;
     for step in steps.into_iter().flat_map(Step::one_by_one) {
@@ -104,6 +111,7 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
         let (position, depth) = match candidate {
             Candidate::Sample(k) => (evaluator.ray.position(k), evaluator.ray.depth(k).to_f64()),
             Candidate::Surface(hit) => (evaluator.inside(hit.t), hit.t),
+            Candidate::Mesh(hit) => (evaluator.inside(hit.t), hit.t),
         };
         let at = evaluator.sampler.place(position);
         let value = match (candidate, &self.prepared.surface) {
@@ -116,10 +124,17 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
             Candidate::Surface(hit) => {
                 hit.cut.map(|plane| object.clip.face(plane, &evaluator.dirs, &self.prepared.eye_axes))
             }
+            Candidate::Mesh(_) => None,
         };
         let normal = gradient.and_then(|g| object.normal(g, evaluator.dirs.v));
         let normal = cut.map_or(normal, |cut| Some(cut.normal));
-        let index = position.to_glam();
+        let (normal, index, mesh) = match (candidate, &self.prepared.meshes) {
+            (Candidate::Mesh(hit), Some(meshes)) => {
+                let [origin, along] = evaluator.ray.line();
+                (meshes.seen(&hit, evaluator.dirs.v).0, origin + along * hit.t, Some(hit.mesh))
+            }
+            _ => (normal, position.to_glam(), None),
+        };
         Picked {
             world: object.volume.grid().to_world(index),
             index,
@@ -129,6 +144,7 @@ impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
             opacity,
             label: labels.map(|labels| labels.id_at(position)),
             on_surface: matches!(candidate, Candidate::Surface(_)),
+            mesh,
         }
     }
 }

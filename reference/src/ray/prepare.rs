@@ -5,21 +5,24 @@ use super::cell_mask::CellMask;
 use super::inputs::{Inputs, RenderError};
 use super::lattice::{MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
+use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
+use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, Shader};
-use crate::field::{Field, Sampler, quantile_of_norms};
+use crate::field::{Field, Reconstruction, Rung, Sampler, quantile_of_norms};
 use crate::labels::Labels;
-use crate::number::{Real, Vec3};
+use crate::number::{Mat3, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise, gate};
 use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Axis, BlendSpace, GradientRange, MOST_PLANES, Object, Shot};
+use drypoint_scene::shot::{Axis, BlendSpace, Clipping, GradientRange, MOST_PLANES, Object, Shot};
 use drypoint_scene::space::Grid;
-use drypoint_scene::volume::{BRICK, Bricks};
+use drypoint_scene::view::View;
+use drypoint_scene::volume::{BRICK, Bricks, Volume};
 
 /// Prepares a shot for casting.
 pub(super) fn prepare<'a, R: Real>(
@@ -28,10 +31,13 @@ pub(super) fn prepare<'a, R: Real>(
     counts: &mut Counts,
 ) -> Result<Prepared<'a, R>, RenderError> {
     let [object] = &shot.objects;
-    let (volume, function) = (inputs.volume, &object.function);
+    let volume = inputs.volume;
     within_planes(shot, volume.grid())?;
+    let combination = shot.combination.as_ref();
+    let rung = combination.map_or(object.rung, |c| c.parts.iter().fold(object.rung, |r, part| r.max(part.drawn.rung)));
+    let mut fields = Fields::new(rung);
     // The field, and which of its bricks can show something.
-    let field = Field::<R>::new(volume, object.reconstruction, object.rung)?;
+    let field = fields.of(volume, object)?;
     counts.bytes.extend(field.bytes());
     let bricks = object.skip_empty.then(|| field.bricks());
     if let Some(bricks) = &bricks {
@@ -39,7 +45,8 @@ pub(super) fn prepare<'a, R: Real>(
     }
     let surface = shot.surface.as_ref().map(|s| PreparedSurface::new(s, &field, bricks.as_ref(), counts));
     let skip = bricks.as_ref().map(|bricks| skip::<R>(bricks, object, inputs));
-    let cells = bricks.as_ref().and_then(|bricks| CellMask::new(bricks, object.reconstruction.kernel, function));
+    let cells =
+        bricks.as_ref().and_then(|bricks| CellMask::new(bricks, object.reconstruction.kernel, &object.function));
     if let Some(cells) = &cells {
         counts.bytes.insert("cells".into(), cells.bytes() as u64);
     }
@@ -49,66 +56,38 @@ pub(super) fn prepare<'a, R: Real>(
     if let Some(skip) = &skip {
         counts.bytes.insert("skip".into(), skip.bytes() as u64);
     }
-    // The function, and the range of |g| if something reads it.
-    let range = object.gradient_range;
-    let gradient_range = range.map(|range| with_sampler!(field, |s| gradient_range(s, &field, range, object, counts)));
-    let (at, opacity, rows) = function.nodes();
-    let (over_value, over_two) = match rows {
-        None => (Piecewise::new(at, opacity)?, None),
-        Some(rows) => {
-            let over_two = OverTwo::new((at, opacity), rows, inputs, object, &field, counts)?;
-            (gate::over_value(at, opacity, rows)?, Some(over_two))
-        }
-    };
-    let table = function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
-    if let Some(table) = &table {
-        counts.bytes.insert("table".into(), table.bytes() as u64);
-    }
-    // The styles of caps follow those of the function.
-    let of_function = inputs.styles.len().saturating_sub(shot.clipping.styles.len());
-    let (styles, of_caps) = inputs.styles.split_at(of_function);
-    let shader = Shader::new(shot, styles, volume.grid().voxel())?;
-    if let Some(bytes) = shader.mipmap_bytes() {
-        counts.bytes.insert("style_mipmaps".into(), bytes as u64);
-    }
     let asks_samples = |layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts | LayerKind::Halo(_));
     let collects = shot.layers.iter().any(|&layer| asks_samples(layer));
-    let of_alpha = over_two.as_ref().map(|over_two: &OverTwo<'_, R>| over_two.first);
+    let encode = shot.blend_space == BlendSpace::Srgb;
+    let camera = Camera { view: &shot.view, rays_across: shot.rays_across, voxel: volume.grid().voxel() };
+    let place = Place { grid: volume.grid().clone(), moved: None };
+    let mut prepared = prepare_object((object, &shot.clipping), inputs, place, field, &camera, &mut fields, counts)?;
+    let plain = matches!(prepared.shader, Shader::Regular { .. });
+    let more = !plain
+        || prepared.table.is_some()
+        || prepared.over_two.is_some()
+        || prepared.gradient_range.is_some()
+        || collects
+        || encode;
+    prepared.needs = Needs::new(object.query, more);
+    let of_alpha = prepared.over_two.as_ref().map(|over_two| over_two.first);
     let rounded = |at| R::from_f64(at).to_f64();
     let halos = PreparedHalos::new(shot, inputs, bricks.as_ref(), of_alpha, rounded)?;
     if let Some(skip) = halos.as_ref().and_then(|halos| halos.skip.as_ref()) {
         counts.bytes.insert("skip_seeds".into(), skip.bytes() as u64);
     }
-    let encode = shot.blend_space == BlendSpace::Srgb;
-    let plain = matches!(shader, Shader::Regular { .. });
-    let more = !plain || table.is_some() || over_two.is_some() || gradient_range.is_some() || collects || encode;
-    let object = PreparedObject {
-        volume,
-        ends: volume.grid().index_box().map(Vec3::from_glam),
-        clip: PreparedClip::new(&shot.clipping, of_caps)?,
-        function: over_value,
-        table,
-        over_two,
-        shader,
-        query: object.query,
-        needs: Needs::new(object.query, more),
-        first: object.first,
-        gradient_range,
-        reference_length: object.reference_length,
-        outside: object.reconstruction.outside,
-        normal: object.normal,
-        turn: object.turn,
-        no_normal_below: field.no_normal_below(),
-        field,
-    };
-    Ok(Prepared {
-        object,
+    let combination =
+        combination.map(|c| PreparedCombination::new(c, inputs, &camera, &mut fields, counts)).transpose()?;
+    let mut prepared = Prepared {
+        object: prepared,
+        combination,
         view: shot.view.clone(),
         lattice: shot.lattice,
         skip,
         cells,
         lines: None,
         surface,
+        meshes: PreparedMeshes::new(&shot.meshes, inputs.meshes, volume.grid(), counts),
         halos,
         stop_at: R::from_f64(shot.stop_at),
         encode,
@@ -117,6 +96,127 @@ pub(super) fn prepare<'a, R: Real>(
         eye_axes: EyeAxes::new(&shot.view),
         rays_across: shot.rays_across,
         refine_above: shot.refine_above,
+    };
+    map_funnels(&mut prepared, counts);
+    Ok(prepared)
+}
+
+/// Maps the funnels of smooth cutaways, as the camera sees them ([VS-7]).
+fn map_funnels<R: Real>(prepared: &mut Prepared<'_, R>, counts: &mut Counts) {
+    let Some(mut combination) = prepared.combination.take() else { return };
+    let maps: Vec<_> = (0..combination.cutaways.len()).map(|i| combination.funnel_of(i, prepared, counts)).collect();
+    for (cutaway, map) in combination.cutaways.iter_mut().zip(maps) {
+        cutaway.funnel = map;
+    }
+    prepared.combination = Some(combination);
+}
+
+/// Fields of volumes, and ranges of |g|: objects of one volume share them.
+pub(super) struct Fields<'a, R> {
+    rung: Rung,
+    fields: Vec<(Reconstruction, Field<'a, R>)>,
+    ranges: Vec<(&'a Volume, GradientRange, (R, R))>,
+}
+
+impl<'a, R: Real> Fields<'a, R> {
+    /// No fields yet; each is prepared for a rung.
+    fn new(rung: Rung) -> Self {
+        Self { rung, fields: Vec::new(), ranges: Vec::new() }
+    }
+
+    /// The field of an object's volume.
+    pub(super) fn of(&mut self, volume: &'a Volume, object: &Object) -> Result<Field<'a, R>, RenderError> {
+        let how = object.reconstruction;
+        let known = self.fields.iter().find(|(known, field)| *known == how && std::ptr::eq(field.volume(), volume));
+        if let Some((_, field)) = known {
+            return Ok(field.clone());
+        }
+        let field = Field::<R>::new(volume, how, self.rung)?;
+        self.fields.push((how, field.clone()));
+        Ok(field)
+    }
+
+    /// The range of |g| of an object's volume.
+    fn range(&mut self, field: &Field<'a, R>, object: &Object, counts: &mut Counts) -> Option<(R, R)> {
+        let range = object.gradient_range?;
+        let volume = field.volume();
+        let known = self.ranges.iter().find(|(known, of, _)| std::ptr::eq(*known, volume) && *of == range);
+        if let Some((.., known)) = known {
+            return Some(*known);
+        }
+        let found = with_sampler!(field, |s| gradient_range(s, field, range, object, counts));
+        self.ranges.push((volume, range, found));
+        Some(found)
+    }
+}
+
+/// The camera of a picture, as far as materials depend on it.
+pub(super) struct Camera<'c> {
+    pub(super) view: &'c View,
+    pub(super) rays_across: usize,
+    /// The smallest voxel side of `[volume]`, in world units.
+    pub(super) voxel: f64,
+}
+
+/// The place where a volume is drawn.
+pub(super) struct Place<R> {
+    /// The grid of the volume there.
+    pub(super) grid: Grid,
+    /// L_Tᵀ; none where the volume is not moved.
+    pub(super) moved: Option<Mat3<R>>,
+}
+
+/// Prepares a volume with its function and its material. Its samples may need anything.
+pub(super) fn prepare_object<'a, R: Real>(
+    (object, clipping): (&Object, &Clipping),
+    inputs: &Inputs<'a>,
+    place: Place<R>,
+    field: Field<'a, R>,
+    camera: &Camera<'_>,
+    fields: &mut Fields<'a, R>,
+    counts: &mut Counts,
+) -> Result<PreparedObject<'a, R>, RenderError> {
+    // The function, and the range of |g| if something reads it.
+    let gradient_range = fields.range(&field, object, counts);
+    let (at, opacity, rows) = object.function.nodes();
+    let (over_value, over_two) = match rows {
+        None => (Piecewise::new(at, opacity)?, None),
+        Some(rows) => {
+            let over_two = OverTwo::new((at, opacity), rows, inputs, object, &field, counts)?;
+            (gate::over_value(at, opacity, rows)?, Some(over_two))
+        }
+    };
+    let table = object.function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
+    if let Some(table) = &table {
+        counts.bytes.insert("table".into(), table.bytes() as u64);
+    }
+    // The styles of caps follow those of the function.
+    let of_function = inputs.styles.len().saturating_sub(clipping.styles.len());
+    let (styles, of_caps) = inputs.styles.split_at(of_function);
+    let shader = Shader::new(object, camera.view, camera.rays_across, styles, camera.voxel)?;
+    if let Some(bytes) = shader.mipmap_bytes() {
+        counts.bytes.insert("style_mipmaps".into(), bytes as u64);
+    }
+    Ok(PreparedObject {
+        volume: inputs.volume,
+        ends: inputs.volume.grid().index_box().map(Vec3::from_glam),
+        grid: place.grid,
+        moved: place.moved,
+        clip: PreparedClip::new(clipping, of_caps)?,
+        function: over_value,
+        table,
+        over_two,
+        shader,
+        query: object.query,
+        needs: Needs::Anything,
+        first: object.first,
+        gradient_range,
+        reference_length: object.reference_length,
+        outside: object.reconstruction.outside,
+        normal: object.normal,
+        turn: object.turn,
+        no_normal_below: field.no_normal_below(),
+        field,
     })
 }
 
@@ -136,11 +236,19 @@ pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Meas
 pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Result<(), RenderError> {
     within_planes(shot, prepared.object.volume.grid())?;
     prepared.eye_axes = EyeAxes::new(&shot.view);
-    prepared.object.shader.turn(shot);
+    let [object] = &shot.objects;
+    prepared.object.shader.turn(object, &shot.view);
+    if let (Some(prepared), Some(combination)) = (&mut prepared.combination, &shot.combination) {
+        prepared.turn(combination, &shot.view);
+    }
     if let (Some(prepared), Some(surface)) = (&mut prepared.surface, &shot.surface) {
         prepared.lit = Lit::new(&surface.lit);
     }
+    if let Some(meshes) = &mut prepared.meshes {
+        meshes.turn(&shot.meshes);
+    }
     prepared.view = shot.view.clone();
+    map_funnels(prepared, &mut Counts::default());
     Ok(())
 }
 

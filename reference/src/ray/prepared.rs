@@ -2,9 +2,13 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
+use super::lattice::IndexRay;
+use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
+use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::{EyeAxes, PreparedObject};
+use crate::number::Real;
 use drypoint_scene::fragments::{Fragment, Fragments};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::Lattice;
@@ -13,6 +17,8 @@ use drypoint_scene::view::View;
 /// A shot ready to be cast.
 pub(super) struct Prepared<'v, R> {
     pub(super) object: PreparedObject<'v, R>,
+    /// Objects that are drawn with it, which then is the background; none: none.
+    pub(super) combination: Option<PreparedCombination<'v, R>>,
     pub(super) view: View,
     pub(super) lattice: Lattice,
     pub(super) skip: Option<BrickOccupancy>,
@@ -22,6 +28,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) lines: Option<Fragments>,
     /// An opaque iso-surface; none: none.
     pub(super) surface: Option<PreparedSurface<R>>,
+    /// Opaque meshes; none: none.
+    pub(super) meshes: Option<PreparedMeshes<'v, R>>,
     /// Halos; none: none.
     pub(super) halos: Option<PreparedHalos<'v>>,
     /// A at which a ray ends ([RAY-2]).
@@ -38,7 +46,16 @@ pub(super) struct Prepared<'v, R> {
     pub(super) refine_above: Option<f64>,
 }
 
-impl<R> Prepared<'_, R> {
+impl<R: Real> Prepared<'_, R> {
+    /// The depth at which samples of a ray begin; −∞ in an orthographic picture.
+    pub(super) fn near_of(&self, ray: &IndexRay<R>) -> f64 {
+        match self.view.perspective {
+            // Of shells near is the radius.
+            true => self.lattice.near * (ray.depth_step.to_f64() / self.lattice.step),
+            false => f64::NEG_INFINITY,
+        }
+    }
+
     /// The lines on the ray through a point of the picture, in pixels from the top left corner.
     #[inline]
     pub(super) fn lines_at(&self, point: [f64; 2]) -> &[Fragment] {

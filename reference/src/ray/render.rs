@@ -282,7 +282,9 @@ impl<'a> Renderer<'a> {
             }));
         }
         match (&self.ready, self.order) {
-            (Ready::F64(p), Order::Lanes) if p.lines.is_none() && p.object.clip.planes.is_empty() => {
+            (Ready::F64(p), Order::Lanes)
+                if p.lines.is_none() && p.object.clip.planes.is_empty() && p.combination.is_none() =>
+            {
                 draw(Casting::ByTile(&|work: TileWork<'_>| lanes::cast_all(p, work)))
             }
             (Ready::F64(p), Order::Lanes) => {

@@ -1,7 +1,7 @@
 //! The style transfer function (3.2, 4.1; [STF-3]): from a value to styles, and from styles to a colour.
 
-use super::sphere_map::mix;
 use super::{MipMap, SphereMap};
+use crate::bilinear::mix;
 use crate::number::Real;
 use crate::transfer::{NodePatch, NodePlace};
 use drypoint_scene::style::Style;

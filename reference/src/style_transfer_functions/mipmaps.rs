@@ -1,7 +1,7 @@
 //! The level of detail at which a style is looked up (4.3; [STF-10]).
 
 use super::SphereMap;
-use super::sphere_map::mix;
+use crate::bilinear::mix;
 use crate::number::Real;
 use drypoint_scene::math;
 use drypoint_scene::shot::LevelOfDetail;

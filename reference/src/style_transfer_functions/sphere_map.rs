@@ -1,5 +1,6 @@
 //! The lookup of a lit sphere by a normal (3.1; [STF-1]).
 
+use crate::bilinear::{cell, mix};
 use crate::number::Real;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::Style;
@@ -45,8 +46,8 @@ impl SphereMap {
     #[inline]
     pub fn sample<R: Real>(&self, nx: R, ny: R) -> [R; 4] {
         let half_side = R::from_f64(self.side as f64) * R::HALF;
-        let (i, wx) = self.cell((nx + R::ONE) * half_side - R::HALF);
-        let (j, wy) = self.cell((R::ONE - ny) * half_side - R::HALF);
+        let (i, wx) = cell((nx + R::ONE) * half_side - R::HALF, self.side);
+        let (j, wy) = cell((R::ONE - ny) * half_side - R::HALF, self.side);
         // With a single texel the cell has no second one, and the weight is 0.
         let next = usize::from(self.side > 1);
         let row = |j: usize| {
@@ -57,20 +58,6 @@ impl SphereMap {
         let found = mix(row(j), row(j + next), wy);
         std::array::from_fn(|c| found[c].known_within(self.ranges[c]))
     }
-
-    /// The cell min(⌊x⌋, max(S − 2, 0)) of a coordinate clamped to [0, S − 1], and the place in it.
-    #[inline]
-    fn cell<R: Real>(&self, x: R) -> (usize, R) {
-        let end = R::from_f64((self.side - 1) as f64);
-        let (i, w) = x.max(R::ZERO).min(end).split();
-        if i + 1 >= self.side && i > 0 { (i - 1, w + R::ONE) } else { (i, w) }
-    }
-}
-
-/// Channel by channel, a + w(b − a).
-#[inline(always)]
-pub(super) fn mix<R: Real>(a: [R; 4], b: [R; 4], w: R) -> [R; 4] {
-    std::array::from_fn(|c| R::lerp(a[c], b[c], w))
 }
 
 #[cfg(test)]

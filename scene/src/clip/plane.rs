@@ -48,6 +48,12 @@ impl ClipPlane {
         }
     }
 
+    /// The same plane in the index space of another grid.
+    pub fn on(&self, grid: &Grid) -> Self {
+        let index_offset = self.offset - dot(self.normal, grid.origin());
+        Self { index_normal: grid.axes().transpose() * self.normal, index_offset, ..self.clone() }
+    }
+
     /// m·p − m·q for a place p and the places q on the plane, in index space. Above 0 is cut away.
     #[inline]
     pub fn beyond(&self, index: DVec3) -> f64 {

@@ -104,6 +104,21 @@ impl Given {
         self.keys.iter().map(|(key, place)| (key.as_str(), place))
     }
 
+    /// The same keys, with those of some tables in the place of others: each pair is a table and the place that its keys take.
+    /// Keys that stood there are left out.
+    pub(crate) fn with_tables(&self, tables: &[(String, &str)]) -> Self {
+        let is_in = |key: &str, table: &str| {
+            key.strip_prefix(table).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        let mut keys = self.keys.clone();
+        keys.retain(|key, _| tables.iter().all(|(_, place)| !is_in(key, place)));
+        for (table, place) in tables {
+            let inner = self.keys.iter().filter(|(key, _)| is_in(key, table));
+            keys.extend(inner.map(|(key, at)| (format!("{place}{}", &key[table.len()..]), at.clone())));
+        }
+        Self { keys, ..self.clone() }
+    }
+
     /// Place of a key as messages write it: file, line and column as far as they are known, and the key.
     pub fn position(&self, key: &str) -> String {
         position(&self.file, self.place(key), key)

@@ -41,6 +41,9 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
             }
         }
     }
+    for (i, mesh) in scene.meshes.iter_mut().enumerate() {
+        must_be_found(&mut mesh.file, &format!("mesh[{i}].file"), check, folders);
+    }
     if let Background::Picture(path) = &scene.picture.background {
         must_exist(path, "picture.background", check);
     }

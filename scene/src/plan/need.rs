@@ -2,8 +2,10 @@
 
 use super::Pass;
 use crate::document::Place;
+use crate::lighting::{ContourRule, LightingPreset};
 use crate::quantity::Quantity;
 use crate::space::Grid;
+use crate::tables::Scene;
 use crate::view::View;
 use std::fmt;
 
@@ -16,6 +18,8 @@ pub enum Samples {
     First,
     /// The samples that are asked for seeds of halos, visible or not ([HALO-2]).
     Seeds,
+    /// The visible samples of an object's selection or ghost ([VS-2]).
+    Part,
 }
 
 /// A quantity that an effect needs.
@@ -40,7 +44,7 @@ impl Need {
     /// Returns the work that the need adds to a picture.
     pub fn adds(&self) -> &'static str {
         match self.samples {
-            Samples::Visible => self.quantity.adds(),
+            Samples::Visible | Samples::Part => self.quantity.adds(),
             Samples::First => self.quantity.adds_at_first(),
             Samples::Seeds => self.quantity.adds_at_seeds(),
         }
@@ -193,6 +197,30 @@ impl Plan {
                  make sampling.step smaller",
                 length(longest_step),
                 length(voxel)
+            ));
+        }
+    }
+
+    /// Tells by which angle generated contours miss the silhouette in the corners of a perspective picture, where c is
+    /// exact in its centre ([VS-5]). Errors below a tenth of a degree are not told.
+    pub fn warn_contours(&mut self, scene: &Scene, view: &View) {
+        let Some(shading) = scene.shading.as_ref().filter(|_| self.needs(Quantity::GradientMagnitudeRange)) else {
+            return;
+        };
+        let has_contours = shading.lighting_preset().is_some_and(LightingPreset::has_contours);
+        if !has_contours || !view.perspective || shading.contour != ContourRule::Exact {
+            return;
+        }
+        let light = view.towards(shading.light.unwrap_or(scene.light));
+        let factor = ContourRule::Exact.factor(light.dot(-view.forward));
+        let [width, height] = view.size.map(|n| n as f64);
+        let corners = [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)];
+        let error = |(i, j)| ContourRule::error(factor, light.dot(view.direction_to_world(view.ray(i, j).v)));
+        let largest = corners.map(error).into_iter().fold(0.0, f64::max);
+        if largest >= 0.1 {
+            self.warnings.push(format!(
+                "contours of shading.preset miss the silhouette by up to {largest:.1}° in the picture's corners: they are \
+                 exact in its centre; an orthographic camera has no such error"
             ));
         }
     }

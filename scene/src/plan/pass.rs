@@ -39,6 +39,16 @@ pub enum Pass {
     Clip,
     /// Further rays at edges ([RAY-7]).
     Refinement,
+    /// The memberships of selections ([VS-2]).
+    Selections,
+    /// The look-ups of selections where they are moved ([VS-2]).
+    MovedSelections,
+    /// The depths up to which rays cut the background ([VS-7]).
+    Cutaways,
+    /// The maps of smooth cutaways ([VS-7]).
+    Funnels,
+    /// The colours of places where objects meet ([VS-4]).
+    Intersections,
     /// The seeds of halos on the planes of samples ([HALO-2], [HALO-3]).
     HaloSeeds,
     /// From seeds to the intensities of halos, group of planes by group ([HALO-4], [HALO-5]).
@@ -108,6 +118,11 @@ impl Pass {
             Self::Rays => "rays",
             Self::Clip => "clip planes",
             Self::Refinement => "rays at edges",
+            Self::Selections => "selections",
+            Self::MovedSelections => "moved selections",
+            Self::Cutaways => "cut depths",
+            Self::Funnels => "funnels",
+            Self::Intersections => "intersections",
             Self::HaloSeeds => "halo seeds",
             Self::HaloSpreading => "halo spreading",
             Self::Factor => "factor, a frame",
@@ -152,6 +167,11 @@ impl Pass {
             Self::Rays => "samples² rays a pixel; \"auto\": one, or four everywhere",
             Self::Clip => "one look at the planes a ray, a point and a vertex of a line",
             Self::Refinement => "eight rays a pixel that differs from a neighbour by more than contrast",
+            Self::Selections => "one membership a sample in the selection's box",
+            Self::MovedSelections => "a second look-up a sample in the moved selection's box",
+            Self::Cutaways => "one box a ray; with cut = \"object\" the samples of the object, once more",
+            Self::Funnels => "a depth a pixel and in a band about the picture, one filter along each axis",
+            Self::Intersections => "two colours and one light a sample where both are",
             Self::HaloSeeds => "one look at each sample whose value may seed, seen or not; a number a ray",
             Self::HaloSpreading => "a filter of all rays a pass, once a group of planes; two numbers a ray",
             Self::Factor => "one number a voxel with points",
@@ -195,6 +215,9 @@ impl Pass {
             Self::StipplePoints | Self::DotLabels | Self::DotColors => 0,
             Self::StillFactor | Self::Factor | Self::Dots | Self::Curves => 0,
             Self::Clip | Self::HaloSeeds | Self::HaloSpreading => 0,
+            Self::Cutaways | Self::Funnels | Self::Intersections | Self::MovedSelections => 0,
+            // One number of 64 bits, where bricks differ.
+            Self::Selections => 8,
             Self::HiddenPoints
             | Self::DotsOnPage
             | Self::Creases

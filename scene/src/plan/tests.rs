@@ -27,6 +27,20 @@ fn a_scene_needs_what_its_effects_need_and_no_more() {
     let cases: &[(&str, &str, &[Quantity])] = &[
         (REGULAR, "", &[Value]),
         (REGULAR, "[shading]\n", &[Value, Gradient]),
+        // A lighting function reads |g| where it enhances opacities, and for all that is known of a picture.
+        (REGULAR, "[shading]\nmodel = \"lighting-function\"\n", &[Value, Gradient]),
+        (REGULAR, "[shading]\nmodel = \"lighting-function\"\npreset = \"tone\"\n", &[Value, Gradient]),
+        (
+            REGULAR,
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"gradient\"\n",
+            &[Value, Gradient, GradientMagnitudeRange],
+        ),
+        (
+            REGULAR,
+            "[shading]\nmodel = \"lighting-function\"\ntable = \"t.png\"\n",
+            &[Value, Gradient, GradientMagnitudeRange],
+        ),
+        (REGULAR, "[shading]\npreset = \"gradient\"\n", &[Value, Gradient]),
         (PLAIN, "", &[Value, Gradient]),
         (PLAIN, "[shading]\n", &[Value, Gradient]),
         (PLAIN, "[contours]\n", &[Value, Gradient, PreviousNormal]),
@@ -245,6 +259,24 @@ fn keys_without_effect_are_listed_not_refused() {
     assert_eq!(keys(&format!("{constant} 1\n")), ["style_mipmaps.curvature_bias"]);
     assert!(keys(&format!("{constant} 0\n")).is_empty());
     assert_eq!(keys(&format!("{REGULAR}[shading]\nspecular = 0\nshininess = 9\n")), ["shading.shininess"]);
+    // Keys of [shading] act under one model, and constants in the presets that are made of them.
+    const ALL: &str = "ambient = 0.1\ndiffuse = 0.1\nspecular = 0.1\nshininess = 9\ncontour = \"printed\"\n\
+        divisor_floor = 0.1\n[shading.toon]\n";
+    let of_model = |model: &str| {
+        let keys = keys(&format!("{REGULAR}[shading]\nmodel = {model}\n{ALL}"));
+        keys.iter().map(|key| key.trim_start_matches("shading.").to_owned()).collect::<Vec<_>>()
+    };
+    let function = |more: &str| of_model(&format!("\"lighting-function\"\n{more}"));
+    assert_eq!(of_model("\"phong\""), ["contour", "divisor_floor", "toon"]);
+    assert_eq!(of_model("\"toon\""), ["ambient", "diffuse", "specular", "shininess", "contour", "divisor_floor"]);
+    assert_eq!(function(""), ["contour", "divisor_floor", "toon"]);
+    assert_eq!(function("preset = \"metal-contours\""), ["toon"]);
+    assert_eq!(function("preset = \"cartoon-contours\""), ["specular", "shininess", "toon"]);
+    assert_eq!(function("preset = \"gradient\""), ["contour", "toon"]);
+    assert_eq!(function("preset = \"tone\""), ["ambient", "diffuse", "contour", "divisor_floor", "toon"]);
+    assert_eq!(function("table = \"t.png\""), ["ambient", "diffuse", "specular", "shininess", "contour", "toon"]);
+    let surface = "[surface]\nlook = \"phong\"\n[shading]\nmodel = \"lighting-function\"\npreset = \"tone\"\n";
+    assert_eq!(keys(surface), ["shading.model", "shading.preset"]);
     assert_eq!(
         keys(&format!("gradient_range = \"max\"\noutside = \"high\"\nrange = [0, 1]\n{REGULAR}")),
         ["volume.gradient_range", "volume.outside", "volume.range"].map(String::from).into_iter().collect::<Vec<_>>()

@@ -2,7 +2,7 @@
 
 use crate::clip::{ClipPlane, ClipPlanes};
 use crate::space::Grid;
-use crate::tables::{Clip, ClipSpace, Scene, SphereFrame};
+use crate::tables::{Clip, ClipSpace, PartName, Scene, SphereFrame};
 use glam::DVec3;
 use serde::Serialize;
 
@@ -36,18 +36,47 @@ pub enum Cap {
 }
 
 impl Clipping {
-    /// The planes of a scene that reach into the box of a grid. Every other plane is left out, and changes nothing.
+    /// The planes of a scene's background that reach into the box of a grid. Every other plane is left out, and changes nothing.
     pub fn new(scene: &Scene, grid: &Grid) -> Self {
+        let of_background = |clip: &&Clip| clip.applies.is_empty() || clip.applies.contains(&PartName::Background);
+        Self::made_of(scene, scene.clips.iter().filter(of_background), grid, |plane| plane.cuts_box(grid))
+    }
+
+    /// The planes of tables of a scene, of those that `keeps` holds for.
+    fn made_of<'c>(
+        scene: &Scene,
+        clips: impl Iterator<Item = &'c Clip>,
+        grid: &Grid,
+        keeps: impl Fn(&ClipPlane) -> bool,
+    ) -> Self {
         let frame = scene.transfer.as_ref().map_or(SphereFrame::Eye, |transfer| transfer.sphere_frame);
         let mut clipping = Self { planes: ClipPlanes::default(), caps: Vec::new(), styles: Vec::new(), frame };
-        for clip in &scene.clips {
+        for clip in clips {
             let mut planes = planes(clip, grid);
-            planes.retain(|plane| plane.cuts_box(grid));
+            planes.retain(&keeps);
             let cap = if planes.is_empty() { None } else { clipping.cap(clip) };
             planes.iter_mut().for_each(|plane| plane.cap = cap);
             clipping.planes.0.append(&mut planes);
         }
         clipping
+    }
+
+    /// The planes of a part's scene on the grid where its data are drawn. `main` is the grid of `[volume]`, whose index space
+    /// a plane's coordinates may be in. All of them stay: how many styles caps name depends on the scene alone.
+    pub(super) fn of_part(scene: &Scene, main: &Grid, placed: &Grid) -> Self {
+        let mut clipping = Self::all(scene, main);
+        clipping.planes.0.iter_mut().for_each(|plane| *plane = plane.on(placed));
+        clipping
+    }
+
+    /// The styles that the caps of a part's scene name.
+    pub fn styles_of_part(scene: &Scene, main: &Grid) -> Vec<String> {
+        Self::all(scene, main).styles
+    }
+
+    /// All planes of a scene.
+    fn all(scene: &Scene, grid: &Grid) -> Self {
+        Self::made_of(scene, scene.clips.iter(), grid, |_| true)
     }
 
     /// Adds the cap of a table and returns its place; none if cuts show their own colour.

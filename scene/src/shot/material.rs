@@ -1,12 +1,17 @@
 //! Materials of samples, and the light on colours.
 
 use super::{Kappa, Mix, ShotError, SphereFrame, Transparency};
+use crate::lighting::{LightingModel, LightingPreset, LightingTable};
 use crate::space::Grid;
-use crate::tables::{LightDirection, Scene, Shading, SilhouetteShading, Surface, SurfaceLook, Tone, ToonShading};
+use crate::tables::{
+    LightDirection, Scene, Shading, ShadingModel, SilhouetteShading, Surface, SurfaceLook, Tone, ToonShading,
+};
 use crate::transfer::Function;
 use crate::view::View;
 use glam::DVec3;
 use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// From the attributes of a sample to its straight colour and its opacity per reference length.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -39,6 +44,8 @@ pub enum Lighting {
     Phong(PhongParams),
     /// In tones ([HATCH-15]).
     Toon(ToonParams),
+    /// By a lighting transfer function, which also changes opacities ([VS-5]).
+    Function(LightingParams),
 }
 
 /// Blinn–Phong reflection.
@@ -54,6 +61,29 @@ pub struct PhongParams {
     pub shininess: f64,
     /// L: the unit vector towards the light, in world space.
     pub light: DVec3,
+}
+
+/// A lighting transfer function.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LightingParams {
+    /// The source of the table.
+    pub source: LightingSource,
+    /// The table.
+    pub table: Arc<LightingTable>,
+    /// s_min, the least divisor of opacities.
+    pub divisor_floor: f64,
+    /// L: the unit vector towards the light, in world space.
+    pub light: DVec3,
+}
+
+/// The source of a lighting table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LightingSource {
+    /// A preset.
+    Preset(LightingModel),
+    /// A picture.
+    File(PathBuf),
 }
 
 /// Tones with hard steps.
@@ -109,7 +139,7 @@ impl Material {
     pub(super) fn new(scene: &Scene, function: &Function, grid: &Grid, view: &View) -> Result<Self, ShotError> {
         if matches!(function, Function::Regular(_)) {
             return Ok(Self::Regular(match &scene.shading {
-                Some(shading) => Illumination::of_shading(shading, scene, view),
+                Some(shading) => Illumination::of_shading(shading, scene, view)?,
                 None => Illumination::FLAT,
             }));
         }
@@ -142,13 +172,14 @@ impl Illumination {
     }
 
     /// By a table `[shading]`.
-    fn of_shading(shading: &Shading, scene: &Scene, view: &View) -> Self {
+    fn of_shading(shading: &Shading, scene: &Scene, view: &View) -> Result<Self, ShotError> {
         let light = shading.light.unwrap_or(scene.light);
-        let lighting = match shading.tones() {
-            Some(tones) => Lighting::Toon(ToonParams::new(&tones, light, view)),
-            None => Lighting::Phong(PhongParams::new(shading, light, view)),
+        let lighting = match (shading.model, shading.tones()) {
+            (ShadingModel::Function, _) => Lighting::Function(LightingParams::new(shading, light, view)?),
+            (_, Some(tones)) => Lighting::Toon(ToonParams::new(&tones, light, view)),
+            (_, None) => Lighting::Phong(PhongParams::new(shading, light, view)),
         };
-        Self { lighting, silhouette: offset(shading.silhouette), view_opacity: shading.view_opacity }
+        Ok(Self { lighting, silhouette: offset(shading.silhouette), view_opacity: shading.view_opacity })
     }
 
     /// By the look of an iso-surface, with the light and the constants of `[shading]` or their defaults.
@@ -163,6 +194,13 @@ impl Illumination {
         };
         Self { lighting, silhouette: offset(surface.silhouette), view_opacity: 0.0 }
     }
+
+    /// Of meshes: Blinn–Phong, with the light and the constants of `[shading]` or their defaults.
+    pub(super) fn of_mesh(scene: &Scene, view: &View) -> Self {
+        let shading = scene.shading.clone().unwrap_or_default();
+        let light = shading.light.unwrap_or(scene.light);
+        Self { lighting: Lighting::Phong(PhongParams::new(&shading, light, view)), ..Self::FLAT }
+    }
 }
 
 /// The offset of a table of silhouettes.
@@ -174,6 +212,28 @@ impl PhongParams {
     fn new(shading: &Shading, light: LightDirection, view: &View) -> Self {
         let &Shading { ambient, diffuse, specular, shininess, .. } = shading;
         Self { ambient, diffuse, specular, shininess, light: view.towards(light) }
+    }
+}
+
+impl LightingParams {
+    /// The table of a file as it was read, or that of a preset for this light and view ([VS-5]).
+    fn new(shading: &Shading, light: LightDirection, view: &View) -> Result<Self, ShotError> {
+        let light = view.towards(light);
+        let (source, table) = match (shading.lighting_file(), shading.lighting_preset()) {
+            (Some(file), _) => {
+                let table = file.table.clone().ok_or(ShotError::NoLightingTable)?;
+                (LightingSource::File(file.path.clone()), table)
+            }
+            (None, preset) => {
+                let &Shading { ambient, diffuse, specular, shininess, .. } = shading;
+                let preset = preset.unwrap_or(LightingPreset::BlinnPhong);
+                // v at the picture's centre.
+                let contour_factor = shading.contour.factor(light.dot(-view.forward));
+                let model = LightingModel { preset, ambient, diffuse, specular, shininess, contour_factor };
+                (LightingSource::Preset(model), Arc::new(model.table()))
+            }
+        };
+        Ok(Self { source, table, divisor_floor: shading.divisor_floor, light })
     }
 }
 

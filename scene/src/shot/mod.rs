@@ -5,9 +5,11 @@
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
 mod clipping;
+mod combination;
 pub mod halo;
 mod lattice;
 mod material;
+mod mesh;
 mod opaque_surface;
 mod query;
 mod reconstruction;
@@ -15,16 +17,22 @@ mod reconstruction;
 pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
-    Axis, Background, BlendSpace, GradientEstimator, GradientRange, HaloAccumulation, HaloKind, HaloSource,
-    HessianEstimator, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode, SeedDirection, SeedValue,
-    SphereFrame, StepAlong, Tone, Transparency,
+    Axis, Background, BlendSpace, Cut, Fuzzy, GradientEstimator, GradientRange, HaloAccumulation, HaloKind, HaloSource,
+    HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode, Role,
+    SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
 };
 pub use clipping::{Cap, Clipping};
+pub use combination::{
+    Combination, Cutaway, Intersection, IntersectionPaint, Membership, Part, PartFacts, SelectionFacts,
+    SelectionParams, placed,
+};
 pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
-    ContourParams, Illumination, LevelOfDetail, Lighting, Material, PhongParams, StyleParams, ToonParams,
+    ContourParams, Illumination, LevelOfDetail, Lighting, LightingParams, LightingSource, Material, PhongParams,
+    StyleParams, ToonParams,
 };
+pub use mesh::MeshParams;
 pub use opaque_surface::OpaqueSurface;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
@@ -50,10 +58,14 @@ pub struct Shot {
     pub refine_above: Option<f64>,
     /// The number type of samples.
     pub number: Number,
-    /// The volumes that are drawn.
+    /// The volume of `[volume]`; with objects the background.
     pub objects: [Object; 1],
+    /// Objects that are drawn with it ([VS-2]); none: none.
+    pub combination: Option<Combination>,
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
+    /// Opaque meshes ([VS-12]).
+    pub meshes: Vec<MeshParams>,
     /// Clip planes ([RAY-8]).
     pub clipping: Clipping,
     /// Volumetric halos ([HALO-1]).
@@ -143,12 +155,18 @@ pub enum ShotError {
     /// The iso-value is still left to the volume.
     #[error("surface.iso is \"auto\", and no value was found")]
     NoIso,
+    /// The picture of a lighting table was not read.
+    #[error("shading.table names a picture that was not read")]
+    NoLightingTable,
     /// The focus of a halo is still in pixels.
     #[error("the focus of halo {halo} is given in pixels, and was not picked")]
     FocusInPixels {
         /// The halo's place in the list.
         halo: usize,
     },
+    /// A motion moves an object out of the range of numbers.
+    #[error("the motion of an object leaves the range of numbers")]
+    Motion,
     /// A label of a halo is still a name.
     #[error("label {label} of halo {halo} is a name, and its id was not looked up")]
     LabelName {
@@ -165,7 +183,7 @@ impl Shot {
     ///
     /// # Errors
     /// A length on the page, a Hessian that the kernel does not have, an iso-value that was not found in the data yet, a
-    /// focus that was not picked, the name of a label whose id was not looked up.
+    /// focus that was not picked, the name of a label whose id was not looked up, a lighting table that was not read.
     pub fn resolve(
         scene: &Scene,
         plan: &Plan,
@@ -176,32 +194,8 @@ impl Shot {
         let sampling = &scene.sampling;
         let world = |length: Length, key| length.world(facts.grid).ok_or(ShotError::Length { key });
         let step = world(sampling.step, "sampling.step")?;
-        let hessian = sampling.hessian.resolved(sampling.kernel, facts.is_integer)?;
-        let reconstruction = Reconstruction {
-            kernel: sampling.kernel,
-            gradient: sampling.gradient,
-            hessian,
-            scale: world(sampling.scale, "sampling.scale")?,
-            outside: scene.volume.outside,
-        };
+        let object = Object::resolve(scene, plan, facts, function, &view)?;
         let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
-        let (query, first) = query::of_samples(scene, plan, &function);
-        let object = Object {
-            reconstruction,
-            rung: Rung::of(plan),
-            skip_empty: plan.has_pass(Pass::Bricks),
-            label_lookup: scene.volume.label_lookup,
-            reference_length: world(sampling.reference_length, "sampling.reference_length")?,
-            gradient_range: plan
-                .needs_anywhere(Quantity::GradientMagnitudeRange)
-                .then_some(scene.volume.gradient_range),
-            normal: NormalDirection::new(sampling.normal, scene.volume.outside),
-            turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
-            query,
-            first,
-            material: Material::new(scene, &function, facts.grid, &view)?,
-            function,
-        };
         let surface = OpaqueSurface::new(scene, plan, &view)?;
         let halos = Halos::new(scene, plan, facts.grid, &object.function)?;
         let layers = &scene.picture.layers;
@@ -213,7 +207,9 @@ impl Shot {
             clipping: Clipping::new(scene, facts.grid),
             halos,
             objects: [object],
+            combination: None,
             surface,
+            meshes: MeshParams::all(scene, &view),
             blend_space: scene.picture.blend_space,
             background: scene.picture.background.clone(),
             stop_at: stop_at(sampling.stop_below, scene.picture.blend_space),
@@ -228,6 +224,45 @@ impl Shot {
     /// A volume of the transfer function whose path is no text.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string_pretty(self)
+    }
+}
+
+impl Object {
+    /// Decides what a scene leaves open of a volume, of which lengths are measured by the grid of `facts`.
+    fn resolve(
+        scene: &Scene,
+        plan: &Plan,
+        facts: VolumeFacts<'_>,
+        function: Arc<Function>,
+        view: &View,
+    ) -> Result<Self, ShotError> {
+        let sampling = &scene.sampling;
+        let world = |length: Length, key| length.world(facts.grid).ok_or(ShotError::Length { key });
+        let hessian = sampling.hessian.resolved(sampling.kernel, facts.is_integer)?;
+        let reconstruction = Reconstruction {
+            kernel: sampling.kernel,
+            gradient: sampling.gradient,
+            hessian,
+            scale: world(sampling.scale, "sampling.scale")?,
+            outside: scene.volume.outside,
+        };
+        let (query, first) = query::of_samples(scene, plan, &function);
+        Ok(Self {
+            reconstruction,
+            rung: Rung::of(plan),
+            skip_empty: plan.has_pass(Pass::Bricks),
+            label_lookup: scene.volume.label_lookup,
+            reference_length: world(sampling.reference_length, "sampling.reference_length")?,
+            gradient_range: plan
+                .needs_anywhere(Quantity::GradientMagnitudeRange)
+                .then_some(scene.volume.gradient_range),
+            normal: NormalDirection::new(sampling.normal, scene.volume.outside),
+            turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
+            query,
+            first,
+            material: Material::new(scene, &function, facts.grid, view)?,
+            function,
+        })
     }
 }
 

@@ -12,6 +12,9 @@ pub enum PictureFault {
         /// The decoder's reason.
         reason: String,
     },
+    /// Floating-point light where a table of codes is asked for ([VS-5]).
+    #[error("floating-point light, but a lighting table has 8 or 16 bits a channel")]
+    FloatingPoint,
     /// Width and height differ ([STF-1]).
     #[error("{width} × {height} texels, but a style is a square picture of a sphere")]
     NotSquare {
@@ -144,6 +147,7 @@ impl PictureFault {
     pub fn help(&self) -> &'static str {
         match self {
             Self::Unreadable { .. } => "give a picture in PNG, JPEG or OpenEXR",
+            Self::FloatingPoint => "give a PNG of 8 or 16 bits",
             Self::NotSquare { .. } | Self::Texels { .. } => "cut the picture to the square around its sphere",
             Self::TooLarge { .. } | Self::Memory { .. } => "scale the picture down",
             Self::Pixels { .. } => "give one for each place of a picture that has at least one",

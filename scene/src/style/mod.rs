@@ -5,6 +5,7 @@
 
 mod decode;
 mod error;
+mod lighting;
 mod load;
 mod mipmaps;
 mod rim;
@@ -13,6 +14,7 @@ mod theme;
 
 pub use decode::MAX_SIDE;
 pub use error::{PictureFault, StyleError};
+pub use lighting::lighting_table;
 pub use load::load;
 pub use mipmaps::MipLevel;
 pub use rim::is_inside;

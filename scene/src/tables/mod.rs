@@ -12,6 +12,7 @@ pub mod halo;
 mod halo_presets;
 pub mod hatching;
 pub mod intersection;
+pub mod mesh;
 pub mod nodes;
 pub mod object;
 pub mod orbit;
@@ -50,6 +51,7 @@ pub use hatching::{
     LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
 };
 pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable, Opposite};
+pub use mesh::MeshTable;
 pub use nodes::{Row, RowAt, Stand};
 pub use object::{
     Brush, Connectivity, Cut, GhostTable, Motion, ObjectTable, PaintMode, PaintStroke, PaintTarget, PartName, Role,

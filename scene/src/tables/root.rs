@@ -2,8 +2,9 @@
 
 use super::preset::PRESETS;
 use super::{
-    Halo, ObjectTable, Scene, VolumeSource, camera, clip, combine, contours, halo, hatching, intersection, object,
-    orbit, outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer, volume,
+    Halo, ObjectTable, Scene, VolumeSource, camera, clip, combine, contours, halo, hatching, intersection, mesh,
+    object, orbit, outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer,
+    volume,
 };
 use crate::document::check::Check;
 use crate::document::declare::keys;
@@ -51,7 +52,6 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
     later: &[
-        later("mesh", "VS-12"),
         later("box", "VS-8"),
         later("arrow", "VS-8"),
         later("fan", "VS-10"),
@@ -134,6 +134,10 @@ pub(crate) static ROOT: Table<Scene> = Table {
             outlines: key("HATCH-18", TableOf(&outlines::TABLE)).absent("no outlines");
             /// An opaque iso-surface.
             surface: key("HATCH-14", TableOf(&surface::TABLE)).absent("no surface").needs(&[Quantity::Surface]);
+            /// Opaque meshes, which cut the volume and are cut by it.
+            mesh: key("VS-12", ListOf { what: "a list of meshes", each: TableOf(&mesh::TABLE) },
+                |s| (!s.meshes.is_empty()).then(|| s.meshes.clone()),
+                |s, v| s.meshes = v).absent("none").needs(&[Quantity::Mesh]);
         } },
     )
 };

@@ -1,9 +1,9 @@
 //! The scene: all tables of a scene file ([SCN-1], [SCN-3]).
 
 use super::{
-    Background, Camera, Clip, Combine, Contours, Halo, Hatching, IntersectionTable, LightDirection, ObjectTable, Orbit,
-    Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples, StyleMipmaps, Styles, Surface,
-    SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Background, Camera, Clip, Combine, Contours, Halo, Hatching, IntersectionTable, LightDirection, MeshTable,
+    ObjectTable, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
+    StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use crate::document::Given;
 use std::path::{Path, PathBuf};
@@ -56,6 +56,8 @@ pub struct Scene {
     pub outlines: Option<Outlines>,
     /// An opaque iso-surface; none: none.
     pub surface: Option<Surface>,
+    /// Opaque meshes, in their order.
+    pub meshes: Vec<MeshTable>,
     /// Which keys the scene said itself, and where. It takes no part in comparisons.
     pub given: Given,
 }
@@ -80,9 +82,10 @@ impl Scene {
             Background::Picture(path) => Some(path),
             Background::Color(_) | Background::None => None,
         };
+        let meshes = self.meshes.iter().map(|mesh| &mesh.file);
         let tones = self.pens.iter().filter_map(|pen| pen.tone.as_ref());
         let all = volume.into_iter().chain(labels).chain(further).chain(self.styles.paths());
-        let all = all.chain(of_objects).chain(of_intersections).chain(background).chain(tones);
+        let all = all.chain(of_objects).chain(of_intersections).chain(background).chain(meshes).chain(tones);
         all.map(PathBuf::as_path).collect()
     }
 
@@ -96,9 +99,11 @@ impl Scene {
         self.outlines.is_some() || self.hatching.is_some()
     }
 
-    /// Whether the volume itself is drawn, by rays ([SCN-3]).
+    /// Whether rays draw the volume itself, or what stands beside it ([SCN-3]).
     pub fn draws_volume(&self) -> bool {
-        self.transfer.is_some() || self.surface.as_ref().is_some_and(|surface| surface.look != SurfaceLook::None)
+        self.transfer.is_some()
+            || !self.meshes.is_empty()
+            || self.surface.as_ref().is_some_and(|surface| surface.look != SurfaceLook::None)
     }
 
     /// A volume, every default, and no effect.
@@ -126,6 +131,7 @@ impl Scene {
             hatching: None,
             outlines: None,
             surface: None,
+            meshes: Vec::new(),
             given: Given::default(),
         }
     }

@@ -1,11 +1,15 @@
-//! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]) or in tones ([HATCH-15]).
+//! `[shading]`: light on a regular transfer function, Blinn–Phong ([STF-11]), in tones ([HATCH-15]) or by a table
+//! ([VS-5]).
 
 use crate::document::check::Check;
 use crate::document::declare::{choices, keys, table};
-use crate::document::describe::{Kind, Later, Shape, Table};
+use crate::document::describe::{Kind, Shape, Table};
+use crate::document::fault::Problem;
 use crate::document::item::{Item, Value};
-use crate::document::kind::{Bounds, Number, Numbers, Rule, TableOf};
+use crate::document::kind::{Bounds, End, Number, Numbers, PathTo, Rule, TableOf};
 use crate::document::out::Out;
+use crate::lighting::{ContourRule, LightingFile, LightingPreset};
+use crate::quantity::Quantity;
 use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use glam::DVec3;
@@ -27,6 +31,23 @@ table! {
         shininess: f64 = 30.0, key("STF-11", SHARE);
         /// Towards the light.
         light: Option<LightDirection> = None, key("STF-11", Light).absent("the scene's `light`");
+        /// The table of model = "lighting-function" that is generated.
+        preset: Option<LightingPreset> = None,
+            key("VS-5", LightingPreset::KIND)
+                .absent("`\"blinn-phong\"` without `table`").needs(&[Quantity::GradientMagnitudeRange]);
+        /// The table of model = "lighting-function" as a picture of 8 or 16 bits: columns from N·L = −1 to 1, rows from
+        /// N·Ĥ = 1 down to −1; red, green, blue and alpha are ambient, diffuse, specular and opacity enhancement.
+        table: Option<LightingFile> = None,
+            key(
+                "VS-5",
+                LIGHTING_TABLE,
+                |shading: &Shading| shading.table.as_ref().map(|file| file.path.clone()),
+                |shading, path| shading.table = Some(LightingFile { path, table: None })
+            ).absent("the preset's").needs(&[Quantity::GradientMagnitudeRange]);
+        /// The rule for the contours of a preset of model = "lighting-function".
+        contour: ContourRule = ContourRule::Exact, key("VS-5", ContourRule::KIND);
+        /// s_min: model = "lighting-function" divides opacities by at least this number.
+        divisor_floor: f64 = 0.015625, key("VS-5", DIVISOR);
         /// The tones of model = "toon".
         toon: Option<ToonShading> = None,
             key("HATCH-15", TableOf(&SHADING_TOON)).absent("offset 0 and two tones, `#404040` and white");
@@ -46,8 +67,9 @@ choices! {
         Phong = "phong",
         /// In tones with hard steps between them.
         Toon = "toon",
+        /// By a table over N·L and N·Ĥ, which also enhances opacities: a lighting transfer function.
+        Function = "lighting-function",
     }
-    later &["lighting-function"]
 }
 
 /// Towards the light.
@@ -66,19 +88,42 @@ impl Shading {
     pub fn tones(&self) -> Option<ToonShading> {
         (self.model == ShadingModel::Toon).then(|| self.toon.clone().unwrap_or_default())
     }
+
+    /// The preset of [`ShadingModel::Function`]; none under another model, and with a table of a file.
+    pub fn lighting_preset(&self) -> Option<LightingPreset> {
+        let generated = self.model == ShadingModel::Function && self.table.is_none();
+        generated.then(|| self.preset.unwrap_or(LightingPreset::BlinnPhong))
+    }
+
+    /// The file of the table of [`ShadingModel::Function`]; none under another model, and with a preset.
+    pub fn lighting_file(&self) -> Option<&LightingFile> {
+        self.table.as_ref().filter(|_| self.model == ShadingModel::Function)
+    }
+
+    /// Whether opacities depend on |g|.
+    pub fn reads_magnitude(&self) -> bool {
+        self.lighting_file().is_some() || self.lighting_preset().is_some_and(LightingPreset::reads_magnitude)
+    }
 }
+
+/// The picture of a lighting table.
+const LIGHTING_TABLE: PathTo = PathTo { what: "a picture" };
+
+/// A divisor of opacities that makes none smaller.
+const DIVISOR: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(1.0) }, unit: "" };
 
 /// A share of light.
 const SHARE: Number = Number { bounds: Bounds::NOT_NEGATIVE, unit: "" };
 
 /// The description of `[shading]`.
 pub(crate) static TABLE: Table<Shading> = Table {
-    later: &[
-        Later { name: "preset", tag: "VS-5" },
-        Later { name: "table", tag: "VS-5" },
-        Later { name: "contour", tag: "VS-5" },
-        Later { name: "divisor_floor", tag: "VS-5" },
-    ],
+    check: |_, check| {
+        if check.has("preset") && check.has("table") {
+            let what = "shading has both preset and table".into();
+            let remedy = "keep one of them: a preset's table is generated".into();
+            check.fault_in("table", Problem::Contradiction { what, remedy });
+        }
+    },
     ..Shading::description(
         "[shading]",
         "Light on a regular transfer function, and on a lit iso-surface. Without the table the function is unshaded.",

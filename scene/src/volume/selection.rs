@@ -1,6 +1,7 @@
 //! Selection volumes ([VS-1], [VS-2]): a membership in [0, 1] at each voxel, in shared bricks.
 
 use super::bricked::BrickedVolume;
+use super::labels::LabelVolume;
 use super::{Anatomy, Volume, Voxels};
 use crate::memory::{self, NoRoom};
 use crate::space::Grid;
@@ -34,6 +35,18 @@ impl Selection {
         };
         let memberships = BrickedVolume::from_fn(volume.dims(), membership)?;
         Ok(Self { grid: volume.grid().clone(), anatomy: volume.anatomy(), memberships })
+    }
+
+    /// The voxels that have one of some labels: membership 1 or 0.
+    ///
+    /// # Errors
+    /// Memory that the budget does not allow.
+    pub fn from_labels(labels: &LabelVolume, ids: &[u32]) -> Result<Self, NoRoom> {
+        let [nx, ny, _] = labels.grid().dims();
+        let is_one = |[x, y, z]: [usize; 3]| ids.contains(&labels.id((z * ny + y) * nx + x));
+        let membership = |voxel| if is_one(voxel) { 1.0 } else { 0.0 };
+        let memberships = BrickedVolume::from_fn(labels.grid().dims(), membership)?;
+        Ok(Self { grid: labels.grid().clone(), anatomy: labels.anatomy(), memberships })
     }
 
     /// The memberships as a volume, to be written into a file. Reading the file gives the same selection.
@@ -96,6 +109,16 @@ mod tests {
         assert_eq!(memberships(&read), [0.0, 0.0, 0.25, 1.0, 1.0, 0.0, 0.0, 0.0]);
         assert!(memberships(&read).iter().all(|f| f.is_sign_positive()));
         assert_eq!(memberships(&selection(vec![0.5, 3.0], 0.5)), [0.25, 1.0]);
+    }
+
+    #[test]
+    fn labels_select_their_voxels() {
+        let grid = Grid::with_spacing([5, 1, 1], [1.0; 3]).unwrap();
+        let volume = Volume::new(grid, Voxels::U8(vec![0, 3, 7, 3, 9]), 1.0, 0.0).unwrap();
+        let labels = LabelVolume::new(&volume).unwrap();
+        let found = |ids: &[u32]| memberships(&Selection::from_labels(&labels, ids).unwrap());
+        assert_eq!(found(&[3, 9]), [0.0, 1.0, 0.0, 1.0, 1.0]);
+        assert_eq!(found(&[]), [0.0; 5]);
     }
 
     #[test]

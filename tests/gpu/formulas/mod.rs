@@ -4,6 +4,7 @@
 mod elementary;
 mod field;
 mod halos;
+mod lighting;
 mod over_two;
 mod samples;
 mod styles;

@@ -74,7 +74,13 @@ fn normals(next: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
 
 /// The text of lookups, without mip-maps.
 fn lookups(more: &[&str]) -> String {
-    let before = ["number/number", "number/elementary", "number/color", "style_transfer_functions/sphere_map"];
+    let before = [
+        "number/number",
+        "number/elementary",
+        "number/bilinear",
+        "number/color",
+        "style_transfer_functions/sphere_map",
+    ];
     let stubs = "struct Ray { depth: real, }\nstruct Sample { k: i32, place: NodePlace, }
         struct Attributes { kappa: real, magnitude: real, }\nstruct NodePlace { node: i32, w: real, alpha_u: real, }
         const PERSPECTIVE = true;\nfn depth_of(ray: Ray, k: i32) -> real { return ray.depth; }\n";

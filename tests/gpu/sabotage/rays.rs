@@ -50,6 +50,7 @@ fn faults_of_rays_and_light_are_noticed_at_their_stage() {
     let phong = "[shading]\n";
     let toon = "[shading]\nmodel = \"toon\"\n[shading.silhouette]\n";
     let growing = "[shading]\nview_opacity = 0.8\n";
+    let by_table = "[shading]\nmodel = \"lighting-function\"\npreset = \"metal-contours\"\nlight = [-0.6, 0.4, 0.7]\n";
     let clip = "[shading]\n[[clip]]\npoint = [11.3, 11.2, 11.1]\nnormal = [0.2, -1, 0.3]\nspace = \"index\"\ncap = \"#ff0000\"\n";
     for (more, old, new, stage) in [
         // Rays and positions.
@@ -98,6 +99,12 @@ fn faults_of_rays_and_light_are_noticed_at_their_stage() {
             "(1.0 / min(max(abs(n_dot_v), 0.015625), 1.0))",
             "opacity",
         ),
+        // Lighting functions: a column's place, a row's side, the row below, eq. 8.
+        (by_table, "texel_cell((x + 1.0) *", "texel_cell((x + 1.01) *", "opacity"),
+        (by_table, "texel_cell((1.0 - y) *", "texel_cell((1.0 + y) *", "opacity"),
+        (by_table, "lighting_row(below, column.w)", "lighting_row(at, column.w)", "opacity"),
+        (by_table, "s_alpha + (1.0 - magnitude)", "s_alpha + magnitude", "opacity"),
+        (by_table, "(s.x + s.y) + s.z", "(s.x - s.y) + s.z", "colour"),
         // Clip planes.
         (clip, "p) - planes[plane].offset", "p) + planes[plane].offset", "value"),
         (clip, "if (beyond(i, p) > 0.0)", "if (beyond(i, p) > 1.0)", "value"),

@@ -77,6 +77,23 @@ pub(super) const EFFECTS: &[Effect] = &[
         ..NOTHING
     },
     Effect {
+        name: "shading by a lighting function",
+        asked_by: "`shading.model = \"lighting-function\"`",
+        base: REGULAR,
+        with: &[("shading.model", "lighting-function")],
+        only: &["gradients"],
+        ..NOTHING
+    },
+    Effect {
+        name: "a lighting function that enhances opacities",
+        asked_by: "`shading.preset`, with contours or `\"gradient\"`",
+        base: REGULAR,
+        without: &[("shading.model", "lighting-function")],
+        with: &[("shading.model", "lighting-function"), ("shading.preset", "gradient")],
+        only: &["preprocess.gradients"],
+        ..NOTHING
+    },
+    Effect {
         name: "silhouettes on shading",
         asked_by: "`[shading.silhouette]`",
         base: REGULAR,

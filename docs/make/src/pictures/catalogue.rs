@@ -30,17 +30,20 @@ impl Source {
     }
 }
 
-/// A figure of halos, its parts, pixels along the side of a cell, and cells in a row.
-const SHEETS: [(&str, &str, usize, usize); 6] = [
-    ("figure_5", "abcdef", 320, 3),
-    ("figure_6", "abcd", 330, 2),
-    ("figure_7", "abc", 400, 3),
-    ("figure_8", "ab", 440, 2),
-    ("figure_9", "ab", 440, 2),
-    ("figure_10", "abcd", 340, 2),
+/// A figure of several scenes: its room, its name, its parts, pixels along the side of a cell, and cells in a row.
+const SHEETS: [(&str, &str, &str, usize, usize); 9] = [
+    ("volumeshop", "figure_1", "ab", 440, 2),
+    ("volumeshop", "figure_5", "abcd", 440, 2),
+    ("volumeshop", "figure_6", "abc", 320, 3),
+    ("volumetric_halos", "figure_5", "abcdef", 320, 3),
+    ("volumetric_halos", "figure_6", "abcd", 330, 2),
+    ("volumetric_halos", "figure_7", "abc", 400, 3),
+    ("volumetric_halos", "figure_8", "ab", 440, 2),
+    ("volumetric_halos", "figure_9", "ab", 440, 2),
+    ("volumetric_halos", "figure_10", "abcd", 340, 2),
 ];
 
-/// Parts of halo sheets that are also shown large.
+/// Parts of halos' sheets that are also shown large.
 const LARGE_PARTS: [&str; 1] = ["figure_9_b"];
 
 /// Scenes without a picture of their own: they are timed, measured, or drawn as a page to plot.
@@ -72,11 +75,10 @@ pub(super) fn all() -> Result<Vec<DocPicture>, String> {
             }
         }
     }
-    let halos = root.join("volumetric_halos");
-    pictures.extend(SHEETS.map(|(figure, parts, cell, columns)| {
-        let parts = parts.chars().map(|part| halos.join(format!("{figure}_{part}.toml"))).collect();
+    pictures.extend(SHEETS.map(|(room, figure, parts, cell, columns)| {
+        let parts = parts.chars().map(|part| root.join(room).join(format!("{figure}_{part}.toml"))).collect();
         let layout = Layout { columns: Some(columns), cell };
-        DocPicture { file: format!("pictures/volumetric_halos/{figure}.png"), source: Source::Sheet { parts, layout } }
+        DocPicture { file: format!("pictures/{room}/{figure}.png"), source: Source::Sheet { parts, layout } }
     }));
     pictures.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(pictures)
@@ -86,6 +88,7 @@ pub(super) fn all() -> Result<Vec<DocPicture>, String> {
 fn has_picture(room: &str, stem: &str) -> bool {
     let on_a_sheet = match room {
         "volumetric_halos" => stem.starts_with("figure_") && !LARGE_PARTS.contains(&stem),
+        "volumeshop" => ["figure_1_", "figure_5_", "figure_6_"].iter().any(|sheet| stem.starts_with(sheet)),
         "style_transfer_functions" => stem.starts_with("figure_1_") || stem.ends_with("_regular"),
         _ => false,
     };

@@ -160,14 +160,15 @@ pub(super) const FAMILIES: [Family; 18] = [
     },
     Family {
         letters: "VS",
-        subject: "VolumeShop (Bruckner and Gröller 2005), not built yet",
+        subject: "VolumeShop (Bruckner and Gröller 2005)",
         rules: &[
             (1, "Selection volumes are stored in bricks: equal ones once, copied when they change, with their ranges and boxes."),
             (2, "A scene can hold several objects, each with its own volume, selection, motion and function."),
             (3, "Objects are combined by fuzzy sets: colours by membership, opacities by its operators."),
             (4, "Where two objects meet, a function over both values may decide."),
-            (5, "Lighting may come from a table over N·L and N·Ĥ."),
+            (5, "Lighting may come from a table over N·L and N·Ĥ, which also enhances opacities; contours lie where c·(N·Ĥ) = N·L, with c = ‖L + v‖."),
             (6, "Selections are painted by brushes, region growing and watershed, onto voxels that the transfer function shows."),
+            (7, "What lies in front of a selection is cut away or ghosted, and what is enhanced goes last."),
             (8, "Boxes, arrows and fans say what was moved where."),
             (10, "Labels stand around the picture and are tied to their anchors; an orbit turns the camera."),
             (11, "A scene without its volume is a template; its nodes are in values, normalized, or percentiles."),

@@ -8,6 +8,10 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("Phong, on shells", "[shading]\n[sampling]\nstep_along = \"ray\"\n"),
     ("normals turned to the eye", "[shading]\n[sampling]\nnormal = \"facing\"\n"),
     ("toon shading", "[shading]\nmodel = \"toon\"\n"),
+    (
+        "lighting function",
+        "[shading]\nmodel = \"lighting-function\"\npreset = \"metal-contours\"\nlight = [-0.5, 0.4, 0.7]\n",
+    ),
     ("silhouettes", "[shading]\n[shading.silhouette]\n"),
     ("view-dependent opacity", "[shading]\nview_opacity = 0.7\n"),
     ("a clip plane", "[shading]\n[[clip]]\npoint = [15.3, 15.2, 15.1]\nnormal = [0.1, -1, 0.2]\nspace = \"index\"\n"),

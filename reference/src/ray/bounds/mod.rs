@@ -72,6 +72,8 @@ impl Renderer<'_> {
         let unknown = [
             (inputs.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
             (prepared.halos.is_some(), "halos"),
+            (prepared.combination.is_some(), "objects"),
+            (prepared.meshes.is_some(), "meshes"),
             (prepared.refine_above.is_some(), "rays that are added at edges"),
             (prepared.object.table.is_some(), "a transfer function that is read from a table"),
             (has_surface && !prepared.object.clip.planes.is_empty(), "an iso-surface under clip planes"),

@@ -5,6 +5,7 @@
 
 mod cast;
 mod layers;
+mod object_ray;
 mod path;
 pub(super) mod plane_order;
 pub(super) mod ray_order;
@@ -14,5 +15,6 @@ mod waiting_tile;
 
 pub(super) use cast::Cast;
 pub(super) use layers::Sums;
+pub(super) use object_ray::depth_of_part;
 pub(super) use path::Step;
 pub(super) use ray_state::RayState;

@@ -1,5 +1,6 @@
 //! The path of a ray: what it meets, front to back, before any of it is evaluated.
 
+use crate::mesh::MeshHit;
 use crate::number::Real;
 use crate::ray::lattice::IndexRay;
 use crate::surface::SurfaceHit;
@@ -16,6 +17,36 @@ pub(crate) enum Step<'l> {
     Line { k: i64, line: &'l Fragment },
     /// The iso-surface or a cut of it, where the ray ends; k is the first plane behind it.
     Surface { k: i64, hit: SurfaceHit },
+    /// A mesh, where the ray ends; k is the first plane behind it.
+    Mesh { k: i64, hit: MeshHit },
+}
+
+/// The opaque thing that ends a ray at its own depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum End {
+    /// The iso-surface or a cut of it.
+    Surface(SurfaceHit),
+    /// A mesh.
+    Mesh(MeshHit),
+}
+
+impl End {
+    /// The nearer of two; the surface where both are at one depth.
+    pub(crate) fn nearer(surface: Option<SurfaceHit>, mesh: Option<MeshHit>) -> Option<Self> {
+        match (surface, mesh) {
+            (Some(surface), Some(mesh)) if mesh.t < surface.t => Some(Self::Mesh(mesh)),
+            (Some(surface), _) => Some(Self::Surface(surface)),
+            (None, mesh) => mesh.map(Self::Mesh),
+        }
+    }
+
+    /// Its depth.
+    fn depth(&self) -> f64 {
+        match self {
+            Self::Surface(hit) => hit.t,
+            Self::Mesh(hit) => hit.t,
+        }
+    }
 }
 
 impl Step<'_> {
@@ -29,29 +60,29 @@ impl Step<'_> {
     pub(crate) fn plane(&self) -> i64 {
         match *self {
             Self::Samples([first, _]) => first,
-            Self::Share { k, .. } | Self::Line { k, .. } | Self::Surface { k, .. } => k,
+            Self::Share { k, .. } | Self::Line { k, .. } | Self::Surface { k, .. } | Self::Mesh { k, .. } => k,
         }
     }
 }
 
-/// Appends the steps of a ray: samples of its visits, and lines and the iso-surface at their own depths.
+/// Appends the steps of a ray: samples of its visits, and lines and what ends it at their own depths.
 ///
 /// A sample stands for the way of one step about it, so its way is split where something lies in it: the share before a line is
 /// composited, then the line, then the rest. Both shares together let through as much as the whole step:
 /// (1 − α)^s·(1 − α)^(1−s) = 1 − α.
 ///
-/// A sample counts if its plane lies before the surface. The last one stands for all the way from where its own share of the ray
+/// A sample counts if its plane lies before the surface or mesh. The last one stands for all the way from where its own share of the ray
 /// begins to the surface, from half a step to one and a half. So the way through a volume that is translucent before a surface
 /// grows evenly with the surface's depth, and there are no terraces on it.
 pub(crate) fn steps<'l, R: Real>(
     ray: &IndexRay<R>,
     visits: impl Iterator<Item = [i64; 2]>,
     lines: &'l [Fragment],
-    hit: Option<SurfaceHit>,
+    end: Option<End>,
     steps: &mut Vec<Step<'l>>,
 ) {
     // The depth at which the ray ends.
-    let surface = hit.map(|hit| hit.t);
+    let surface = end.map(|end| end.depth());
     if lines.is_empty() && surface.is_none() {
         steps.extend(visits.map(Step::Samples));
         return;
@@ -99,5 +130,9 @@ pub(crate) fn steps<'l, R: Real>(
         }
     }
     steps.extend(lines.iter().map(|line| Step::Line { k: plane(line.depth), line }));
-    steps.extend(hit.map(|hit| Step::Surface { k: last_of_all + 1, hit }));
+    let k = last_of_all.saturating_add(1);
+    steps.extend(end.map(|end| match end {
+        End::Surface(hit) => Step::Surface { k, hit },
+        End::Mesh(hit) => Step::Mesh { k, hit },
+    }));
 }

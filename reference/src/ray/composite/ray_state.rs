@@ -2,9 +2,11 @@
 
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
+use super::object_ray::{ObjectRay, Together};
 use super::path::Step;
 use crate::accumulator::Accumulator;
 use crate::field::{Place, Sampler};
+use crate::mesh::MeshHit;
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;
 use crate::ray::lattice::IndexRay;
@@ -37,6 +39,8 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(crate) samples: u64,
+    /// The objects on the ray; none: the background alone.
+    pub(super) objects: Option<Box<ObjectRay<'p, 'v, R>>>,
 }
 
 /// Colour and opacity in front on a ray. The loop over samples holds them in registers.
@@ -64,6 +68,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             of_samples: R::ZERO,
             sums: None,
             samples: 0,
+            objects: None,
         }
     }
 
@@ -90,6 +95,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             Step::Line { line, .. } => self.meet_line(line, tint),
             Step::Surface { hit, .. } => {
                 self.meet_surface(hit, tint, counts);
+                false
+            }
+            Step::Mesh { hit, .. } => {
+                self.meet_mesh(&hit, tint);
                 false
             }
         }
@@ -175,6 +184,19 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
+    /// Composites a mesh, of opacity 1, at its own depth. It has no value, gradient or curvature: in layers they are 0.
+    #[inline(never)]
+    fn meet_mesh(&mut self, hit: &MeshHit, tint: Option<&Tint>) {
+        let prepared = self.prepared;
+        let Some(meshes) = &prepared.meshes else { return };
+        let (normal, rgb) = meshes.seen(hit, self.evaluator.dirs.v);
+        self.front.accumulator.end(tinted(self.in_blend_space(rgb), tint));
+        if prepared.collects {
+            let attributes = SampleAttributes { normal, ..SampleAttributes::neutral() };
+            self.add_to_layers(R::ONE, hit.t, 0.0, &attributes);
+        }
+    }
+
     /// A linear colour as it is composited ([VAL-3]).
     #[inline(always)]
     fn in_blend_space(&self, rgb: [R; 3]) -> [R; 3] {
@@ -184,6 +206,78 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     /// Visits the samples first..=last. Returns whether the ray is still open.
     #[inline(never)]
     fn run<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
+        match self.objects.take() {
+            None => self.run_background::<N>(visit, tint, counts),
+            Some(mut objects) => {
+                let open = self.run_with::<N>(&mut objects, visit, tint, counts);
+                self.objects = Some(objects);
+                open
+            }
+        }
+    }
+
+    /// Visits samples among objects: runs of the background alone as if there were none, the others one by one.
+    #[inline(never)]
+    fn run_with<N: Need>(
+        &mut self,
+        objects: &mut ObjectRay<'p, 'v, R>,
+        [mut next, last]: [i64; 2],
+        tint: Option<&Tint>,
+        counts: &mut Counts,
+    ) -> bool {
+        while next <= last {
+            let ([first, end], is_mixed) = objects.run_from([next, last]);
+            if is_mixed {
+                for k in first..=end {
+                    let before = counts.samples;
+                    let together = objects.together(k, self.prepared, counts);
+                    self.samples += std::mem::replace(&mut counts.samples, before) - before;
+                    let Some(together) = together else { continue };
+                    self.composite_together(objects, k, &together, tint, counts);
+                    if !self.is_open() {
+                        return false;
+                    }
+                }
+            } else {
+                for range in objects.background_in([first, end]) {
+                    if !self.run_background::<N>(range, tint, counts) {
+                        return false;
+                    }
+                }
+            }
+            next = end + 1;
+        }
+        true
+    }
+
+    /// Composites what objects are together at a sample.
+    fn composite_together(
+        &mut self,
+        objects: &mut ObjectRay<'p, 'v, R>,
+        k: i64,
+        together: &Together<R>,
+        tint: Option<&Tint>,
+        counts: &mut Counts,
+    ) {
+        let Together { rgb, alpha, largest } = together;
+        let corrected = self.correction.apply(*alpha);
+        self.front.accumulator.over(tinted(self.in_blend_space(*rgb), tint), corrected);
+        if !self.prepared.collects || *alpha <= R::ZERO {
+            return;
+        }
+        let exponent = self.prepared.object.field.scale_exponent();
+        match objects.for_layers(largest, self.sums.is_none(), exponent, counts) {
+            None => self.collect(largest.sample, corrected, largest.attributes, counts),
+            Some(attributes) => {
+                let (depth, value) = (self.evaluator.ray.depth(k).to_f64(), largest.sample.s.to_f64());
+                self.add_to_layers(corrected, depth, value, &attributes);
+            }
+        }
+    }
+
+    /// Visits samples of the background, or of a picture without objects. Returns whether the ray is still open.
+    #[inline(always)]
+    fn run_background<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         if S::AT_ONCE > 1 {
             self.run_ahead::<N>(visit, tint, counts)
         } else {

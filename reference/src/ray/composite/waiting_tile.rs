@@ -46,17 +46,18 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
     /// Aims the rays of a tile, with so many halos that layers show.
     pub(super) fn new(prepared: &'p Prepared<'v, R>, sampler: &'p S, mut tile: TileRays, watched: usize) -> Self {
+        let mut counts = Counts::default();
         let rays = tile.points.iter().zip(&tile.places).map(|(&point, &place)| {
-            let state = RayState::new(prepared, sampler, point);
+            let mut state = RayState::new(prepared, sampler, point);
             let mut path = Vec::new();
-            state.path(point, tile.boxes.as_mut(), &mut path);
+            state.path(point, tile.boxes.as_mut(), &mut path, &mut counts);
             path.shrink_to_fit();
             WaitingRay { state, place, path, at: 0, intensities: vec![0.0; watched].into() }
         });
         let rays: Vec<_> = rays.collect();
         let open: Vec<_> =
             rays.iter().enumerate().filter_map(|(i, ray)| Some((ray.path.first()?.plane(), i))).collect();
-        Self { next: nearest(&open), rays, open, is_open: true, counts: Counts::default() }
+        Self { next: nearest(&open), rays, open, is_open: true, counts }
     }
 
     /// Visits the planes of its rays up to `last`, without halos.

@@ -55,6 +55,7 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
         && prepared.layers == [LayerKind::Beauty]
         && prepared.object.volume.mask().is_none()
         && prepared.surface.is_none()
+        && prepared.meshes.is_none()
         && prepared.object.field.fits_lanes(shaded, matches!(prepared.object.shader, Shader::Style(_)))
 }
 

@@ -192,6 +192,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         counts.hessians += 1;
         let (mut kappa, mut principal) = known;
         if g.length().exceeds(object.no_normal_below) {
+            // Of a moved field: g' = L_Tᵀg and H' = L_TᵀHL_T ([VS-2]).
+            let (g, h) = object.moved.as_ref().map_or((g, h), |moved| (moved.apply(g), moved.congruence(h)));
             if query.kappa == KappaSource::Exact {
                 kappa = curvature::along_view(g, h, self.dirs.v, object.outside);
             }

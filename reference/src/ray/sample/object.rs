@@ -3,14 +3,19 @@
 use super::need::Needs;
 use super::{OverTwo, PreparedClip, Shader};
 use crate::field::Field;
-use crate::number::{Arithmetic, Decision, Real, Vec3};
+use crate::number::{Arithmetic, Decision, Mat3, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise};
 use drypoint_scene::shot::{NormalDirection, Outside, SampleQuery, Turn};
+use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Volume;
 
 /// A volume with its function and its material, ready for samples.
 pub(crate) struct PreparedObject<'v, R> {
     pub(crate) volume: &'v Volume,
+    /// The grid of the volume where it is drawn.
+    pub(crate) grid: Grid,
+    /// L_Tᵀ of [VS-2], from gradients of the volume to those of the moved field; none where it is not moved.
+    pub(crate) moved: Option<Mat3<R>>,
     pub(crate) field: Field<'v, R>,
     /// Lowest and highest index position ([SPACE-1]).
     pub(crate) ends: [Vec3<R>; 2],
@@ -41,10 +46,16 @@ pub(crate) struct PreparedObject<'v, R> {
 
 impl<R: Real> PreparedObject<'_, R> {
     /// The normal that shades ([NORM-1]): the outward one turned as the shot says, seen from v; none where ‖g‖ is rounding
-    /// ([PREC-3]).
+    /// ([PREC-3]). Of a moved volume it is the moved field's, and ‖g‖ the volume's own ([VS-2]).
     #[inline]
     pub(crate) fn normal(&self, g: Vec3<R>, v: Vec3<R>) -> Option<Vec3<R>> {
-        let outward = crate::field::normal::outward(g, self.outside, self.no_normal_below);
+        let outward = match &self.moved {
+            None => crate::field::normal::outward(g, self.outside, self.no_normal_below),
+            Some(moved) if g.length().exceeds(self.no_normal_below) => {
+                crate::field::normal::outward(moved.apply(g), self.outside, R::ZERO)
+            }
+            Some(_) => None,
+        };
         outward.map(|n| turned(self.normal, n, v))
     }
 }

@@ -1,6 +1,6 @@
 //! A sample with its colour and its opacity per reference length.
 
-use super::need::Need;
+use super::need::{self, Need};
 use super::{Evaluator, OverTwo, Sample, SampleAttributes};
 use crate::field::Sampler;
 use crate::number::Real;
@@ -33,6 +33,54 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         (cut.map_or(shaded, |cut| cut.shade(shaded)), attributes)
     }
 
+    /// Evaluates and shades a sample of any function; none where it is transparent.
+    pub(crate) fn shaded_by_any(&mut self, sample: Sample<R>, counts: &mut Counts) -> Option<Shaded<R>> {
+        match &self.object.over_two {
+            Some(over_two) => self.shaded_over_two(over_two, sample, counts),
+            None => {
+                let place = self.object.function.locate(sample.s)?;
+                Some(self.shaded::<need::Anything>(sample, &place, counts))
+            }
+        }
+    }
+
+    /// Straight colour and opacity of a visible sample before light falls on them, with attributes that need not be its own:
+    /// of two objects that meet, those of one shade both ([VS-4]). `own` are the sample's.
+    pub(crate) fn unlit(
+        &self,
+        sample: Sample<R>,
+        [own, attributes]: [SampleAttributes<R>; 2],
+        counts: &mut Counts,
+    ) -> ([R; 3], R) {
+        let (object, dirs) = (self.object, &self.dirs);
+        let unlit = match &object.over_two {
+            Some(over_two) => {
+                let patch = over_two.locate(&self.quantities(sample, &own));
+                patch.map(|patch| object.shader.unlit(patch, attributes, dirs, counts))
+            }
+            None => object.function.locate(sample.s).map(|place| match &object.table {
+                Some(table) => object.shader.unlit(table.between_nodes(&place), attributes, dirs, counts),
+                None => object.shader.unlit(place, attributes, dirs, counts),
+            }),
+        };
+        unlit.unwrap_or(([R::ZERO; 3], R::ZERO))
+    }
+
+    /// The quantities of a sample that a function can be over.
+    #[inline(always)]
+    fn quantities(&self, sample: Sample<R>, attributes: &SampleAttributes<R>) -> SampleQuantities<R> {
+        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
+        SampleQuantities {
+            position: self.ray.position(sample.k),
+            place: sample.at,
+            value: sample.s,
+            gradient: of_normal(attributes.gradient.length()),
+            magnitude: of_normal(attributes.magnitude),
+            principal: attributes.principal,
+            kappa: attributes.kappa,
+        }
+    }
+
     /// Evaluates and shades a sample of a function over two quantities: what they need is asked first, and the rest only
     /// where α_u > 0.
     #[inline(always)]
@@ -44,17 +92,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
     ) -> Option<Shaded<R>> {
         let object = self.object;
         let attributes = self.evaluate(sample, over_two.first, SampleAttributes::neutral(), counts);
-        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
-        let here = SampleQuantities {
-            position: self.ray.position(sample.k),
-            place: sample.at,
-            value: sample.s,
-            gradient: of_normal(attributes.gradient.length()),
-            magnitude: of_normal(attributes.magnitude),
-            principal: attributes.principal,
-            kappa: attributes.kappa,
-        };
-        let patch = over_two.locate(&here)?;
+        let patch = over_two.locate(&self.quantities(sample, &attributes))?;
         let attributes = self.evaluate(sample, over_two.rest, attributes, counts);
         counts.without_normal += u64::from(object.query.gradient && attributes.normal.is_none());
         let cut = self.cut_at(sample.k);

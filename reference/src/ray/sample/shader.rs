@@ -8,10 +8,12 @@ use crate::ray::opacity::Correction;
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
 use crate::transfer::{NodePatch, NodePlace};
+use crate::volumeshop::ghosting;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::shot::{Illumination, Lighting, Material, Shot, SphereFrame, StyleParams, Transparency};
+use drypoint_scene::shot::{Illumination, Lighting, Material, Object, SphereFrame, StyleParams, Transparency};
 use drypoint_scene::style::Style;
 use drypoint_scene::transfer::Function;
+use drypoint_scene::view::View;
 
 /// A material ready for samples: how visible samples are coloured.
 pub(crate) enum Shader<R> {
@@ -22,7 +24,7 @@ pub(crate) enum Shader<R> {
         /// Reflection and light.
         phong: Option<Phong<R>>,
     },
-    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]).
+    /// Colours with more than Phong: tones, silhouettes, view-dependent opacity ([HATCH-15]), lighting functions ([VS-5]).
     Illustrated(Illustrated<R>),
     /// Styles (Bruckner and Gröller 2007).
     Style(Styled<R>),
@@ -60,8 +62,13 @@ impl<R: Real> Shader<R> {
     ///
     /// # Errors
     /// Another number of styles than the function names; a material of the other kind of function.
-    pub(crate) fn new(shot: &Shot, styles: &[Style], voxel: f64) -> Result<Self, RenderError> {
-        let [object] = &shot.objects;
+    pub(crate) fn new(
+        object: &Object,
+        view: &View,
+        rays_across: usize,
+        styles: &[Style],
+        voxel: f64,
+    ) -> Result<Self, RenderError> {
         match (&*object.function, &object.material) {
             (Function::Regular(nodes), Material::Regular(lit)) => {
                 let colors = nodes.color.iter().map(|c| c.map(R::from_f64)).collect();
@@ -71,7 +78,7 @@ impl<R: Real> Shader<R> {
                 if names.len() != styles.len() {
                     return Err(RenderError::Styles { named: names.len(), given: styles.len() });
                 }
-                Ok(Self::Style(Styled::new(&nodes.color, style, styles, shot, voxel)))
+                Ok(Self::Style(Styled::new(&nodes.color, style, styles, (view, rays_across), voxel)))
             }
             _ => Err(RenderError::Material),
         }
@@ -93,9 +100,8 @@ impl<R: Real> Shader<R> {
         if let Self::Style(styled) = self { styled.spheres.mipmap_bytes() } else { None }
     }
 
-    /// Takes over what depends on the camera from the shot of another one.
-    pub(crate) fn turn(&mut self, shot: &Shot) {
-        let [object] = &shot.objects;
+    /// Takes over what depends on the camera: the material of another one's shot, and its view.
+    pub(crate) fn turn(&mut self, object: &Object, view: &View) {
         match (self, &object.material) {
             (Self::Regular { phong: Some(phong), .. }, Material::Regular(lit)) => {
                 if let Lighting::Phong(params) = &lit.lighting {
@@ -103,7 +109,7 @@ impl<R: Real> Shader<R> {
                 }
             }
             (Self::Illustrated(illustrated), Material::Regular(lit)) => illustrated.lit = Lit::new(lit),
-            (Self::Style(styled), _) => styled.eye_axes = EyeAxes::new(&shot.view),
+            (Self::Style(styled), _) => styled.eye_axes = EyeAxes::new(view),
             _ => {}
         }
     }
@@ -137,41 +143,101 @@ impl<R: Real> Shader<R> {
                 };
                 (rgb, place.alpha_u())
             }
-            Self::Illustrated(illustrated) => illustrated.shade(place, attributes, dirs),
+            Self::Illustrated(illustrated) => {
+                illustrated.light((place.color(&illustrated.colors), place.alpha_u()), &attributes, dirs)
+            }
             Self::Style(styled) => styled.shade(place, attributes, dirs, counts),
+        }
+    }
+
+    /// Straight colour and opacity per reference length before light falls on them. A style carries its own light: its
+    /// colour and opacity are those of [`Shader::shade`].
+    pub(crate) fn unlit(
+        &self,
+        place: impl Between<R>,
+        attributes: SampleAttributes<R>,
+        dirs: &ViewDirs<R>,
+        counts: &mut Counts,
+    ) -> ([R; 3], R) {
+        match self {
+            Self::Regular { colors, .. } => (place.color(colors), place.alpha_u()),
+            Self::Illustrated(illustrated) => (place.color(&illustrated.colors), place.alpha_u()),
+            Self::Style(styled) => styled.shade(place, attributes, dirs, counts),
+        }
+    }
+
+    /// A colour and an opacity per reference length in the light of this material; a style adds nothing.
+    pub(crate) fn light(
+        &self,
+        (rgb, alpha): ([R; 3], R),
+        attributes: &SampleAttributes<R>,
+        dirs: &ViewDirs<R>,
+    ) -> ([R; 3], R) {
+        match (self, attributes.normal) {
+            (Self::Regular { phong: Some(phong), .. }, Some(n)) => (phong.shade(rgb, n, dirs.half), alpha),
+            (Self::Illustrated(illustrated), _) => illustrated.light((rgb, alpha), attributes, dirs),
+            (Self::Regular { .. } | Self::Style(_), _) => (rgb, alpha),
+        }
+    }
+
+    /// e of [VS-7], by which ghosting spares a sample: what illustrative styles and lighting functions enhance by; 0 for
+    /// every other material, and for a sample without a normal.
+    pub(crate) fn enhancement(&self, attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> R {
+        match (self, attributes.normal) {
+            (Self::Style(styled), Some(n)) if styled.transparency == Transparency::Illustrative => {
+                let away_from_contour = (n.dot(dirs.v).abs() - styled.tau(attributes)).max(R::ZERO);
+                ghosting::enhancement(away_from_contour, attributes.magnitude)
+            }
+            (Self::Illustrated(illustrated), Some(n)) => {
+                let s_alpha = illustrated.lit.opacity_enhancement(n, dirs.half);
+                s_alpha.map_or(R::ZERO, |s_alpha| ghosting::enhancement(s_alpha, attributes.magnitude))
+            }
+            _ => R::ZERO,
         }
     }
 }
 
 impl<R: Real> Illustrated<R> {
     #[inline(never)]
-    fn shade(&self, place: impl Between<R>, attributes: SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
-        let rgb = self.lit.color(place.color(&self.colors), attributes.normal, [dirs.v, dirs.half]);
+    fn light(&self, (c_u, alpha_u): ([R; 3], R), attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
+        let (rgb, alpha) = self.lit.shade(c_u, alpha_u, attributes, dirs);
         let alpha = match (self.view_opacity, attributes.normal) {
             // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
             (Some(view_opacity), Some(n)) => {
                 let corrected = |alpha, n_dot_v: f64| Correction::new(view_opacity.exponent(n_dot_v)).apply(alpha);
-                R::monotone([place.alpha_u(), n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
+                R::monotone([alpha, n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
             }
-            _ => place.alpha_u(),
+            _ => alpha,
         };
         (rgb, alpha)
     }
 }
 
 impl<R: Real> Styled<R> {
-    fn new(of_node: &[usize], style: &StyleParams, styles: &[Style], shot: &Shot, voxel: f64) -> Self {
+    fn new(
+        of_node: &[usize],
+        style: &StyleParams,
+        styles: &[Style],
+        (view, rays_across): (&View, usize),
+        voxel: f64,
+    ) -> Self {
         let spheres = Spheres::new(styles, style.mix);
         let has_levels = style.level_of_detail.is_some();
         Self {
             index: StyleIndex::new(of_node),
             spheres: if has_levels { spheres.with_mipmaps(styles) } else { spheres },
-            detail: style.level_of_detail.map(|level| Detail::new(&level, &shot.view, shot.rays_across, voxel)),
+            detail: style.level_of_detail.map(|level| Detail::new(&level, view, rays_across, voxel)),
             contour: style.contour.map(|c| Contour::new(c.thickness, c.kappa, c.fade)),
             transparency: style.transparency,
             frame: style.frame,
-            eye_axes: EyeAxes::new(&shot.view),
+            eye_axes: EyeAxes::new(view),
         }
+    }
+
+    /// τ; without contours T = 0, so it is 0 ([STF-9]).
+    #[inline(always)]
+    fn tau(&self, attributes: &SampleAttributes<R>) -> R {
+        self.contour.as_ref().map_or(R::ZERO, |c| c.tau(attributes.kappa, attributes.magnitude))
     }
 
     #[inline(never)]
@@ -185,8 +251,7 @@ impl<R: Real> Styled<R> {
         let n = frame::on_sphere(self.frame, self.eye_axes.normal(&attributes, dirs), dirs.v_eye);
         // |N·v| counts as 1 where there is no normal ([PREC-3]).
         let n_dot_v = attributes.normal.map_or(R::ONE, |n| n.dot(dirs.v).abs());
-        // Without contours T = 0, so τ = 0 ([STF-9]).
-        let tau = self.contour.as_ref().map_or(R::ZERO, |c| c.tau(attributes.kappa, attributes.magnitude));
+        let tau = self.tau(&attributes);
         // A sample without a normal is on no contour, whatever the threshold.
         let on = self.contour.is_some() && attributes.normal.is_some();
         let (x, y) = if on { contour::push(n.x, n.y, n_dot_v, tau) } else { (n.x, n.y) };

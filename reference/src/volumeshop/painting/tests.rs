@@ -232,7 +232,7 @@ fn floods_come_through_the_lowest_pass() {
     let dims = [8, 7, 6];
     let (nx, ny) = (dims[0], dims[1]);
     let relief = |voxel| f64::from(scatter(voxel));
-    let passes = |voxel: [usize; 3]| scatter(voxel) % 7 != 0;
+    let passes = |voxel: [usize; 3]| !scatter(voxel).is_multiple_of(7);
     let markers: Vec<Marker> = all_voxels(dims)
         .filter(|&voxel| passes(voxel))
         .step_by(61)

@@ -26,12 +26,15 @@ const OWN: (&str, &str) = ("object", "[{ volume = \"pet.nrrd\" }]");
 const TURNED: (&str, &str) = ("object", "[{ rotate = { angle = 10 } }]");
 const TWO: (&str, &str) = ("object", "[{ name = \"a\" }, { name = \"b\" }]");
 const MEETING: (&str, &str) = ("intersection", "[{ object = \"a\" }]");
+const MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\" }]");
+const TURNED_MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\", rotate = { angle = 10 } }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
 const LIT: (&str, &str) = ("hatching", "{ lighting = {} }");
 const OUTLINES: (&str, &str) = ("outlines", "{}");
 const SURFACE: (&str, &str) = ("surface.look", "phong");
+const TABLE: (&str, &str) = ("shading.model", "lighting-function");
 const TOON: (&str, &str) = ("shading.model", "toon");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
@@ -147,6 +150,10 @@ const SAMPLES: &[Sample] = &[
     ("shading.shininess", &[("shading", "{}")], "5"),
     ("shading.light", &[("shading", "{}")], "{ world = [1, 0, 0] }"),
     ("shading.model", &[("shading", "{}")], "toon"),
+    ("shading.preset", &[TABLE], "metal-contours"),
+    ("shading.table", &[TABLE], "light.png"),
+    ("shading.contour", &[TABLE], "printed"),
+    ("shading.divisor_floor", &[TABLE], "0.1"),
     ("shading.toon", &[TOON], "{}"),
     ("shading.toon.offset", &[TOON], "0.5"),
     ("shading.toon.tones", &[TOON], "[[0, \"red\"]]"),
@@ -245,6 +252,16 @@ const SAMPLES: &[Sample] = &[
     ("intersection[0].color", &[TWO, MEETING], "#ff000080"),
     ("intersection[0].opacity", &[TWO, MEETING], "xor"),
     ("intersection[0].swap", &[TWO, MEETING], "true"),
+    ("mesh", &[], "[{ file = \"a.ply\" }]"),
+    ("mesh[0].file", &[MESH], "b.stl"),
+    ("mesh[0].color", &[MESH], "#ff0000"),
+    ("mesh[0].move", &[MESH], "[0, 0, 40]"),
+    ("mesh[0].scale", &[MESH], "[1, 1, -2]"),
+    ("mesh[0].rotate", &[MESH], "{ angle = 30 }"),
+    ("mesh[0].rotate.axis", &[TURNED_MESH], "[1, 0, 0]"),
+    ("mesh[0].rotate.angle", &[TURNED_MESH], "45"),
+    ("mesh[0].center", &[MESH], "[1, 2, 3]"),
+    ("mesh[0].matrix", &[MESH], "[[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"),
     ("halo[0].object", &[HALO], "background"),
     ("stipples", &[], "{}"),
     ("stipples.threshold", &[STIPPLES], "q0.9"),

@@ -21,16 +21,14 @@ fn an_unknown_key_names_the_nearest() {
 #[test]
 fn a_part_that_is_not_built_says_so() {
     assert_eq!(
-        faults("[[mesh]]\nfile = \"plate.ply\"\n"),
-        "[[mesh]] is not built yet\n  at scene.toml:4:3, key mesh\n  remove it: this version cannot draw it, \
+        faults("[[arrow]]\nobject = \"a\"\n"),
+        "[[arrow]] is not built yet\n  at scene.toml:4:3, key arrow\n  remove it: this version cannot draw it, \
          and would not ignore it"
     );
     for (rest, what) in [
         ("[[object]]\nstrokes = []\n", "object[0].strokes"),
         ("[[box]]\n", "[[box]]"),
         ("[conventions]\nprofile = \"anari\"\n", "[conventions]"),
-        ("[shading]\nmodel = \"lighting-function\"\n", "shading.model = \"lighting-function\""),
-        ("[shading]\ndivisor_floor = 0.1\n", "shading.divisor_floor"),
     ] {
         let text = faults(rest);
         assert!(text.starts_with(&format!("{what} is not built yet\n")), "{text}");
@@ -118,6 +116,22 @@ fn a_wrong_value_says_what_may_stand_there() {
             "write a length of at least 0: a number in world units, or such as \"2 voxels\"",
         ),
         ("[shading]\nshininess = -1\n", "shading.shininess cannot be -1", "write a number of at least 0"),
+        (
+            "[shading]\ndivisor_floor = 0\n",
+            "shading.divisor_floor cannot be 0",
+            "write a number above 0 and of at most 1",
+        ),
+        (
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"blinn-fong\"\n",
+            "shading.preset cannot be \"blinn-fong\"",
+            "write \"blinn-phong\"; expected is \"blinn-phong\", \"blinn-phong-contours\", \
+             \"cartoon-contours\", \"metal-contours\", \"gradient\" or \"tone\"",
+        ),
+        (
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"tone\"\ntable = \"t.png\"\n",
+            "shading has both preset and table",
+            "keep one of them: a preset's table is generated",
+        ),
         (
             "[transfer]\ntable = 1\n",
             "transfer.table cannot be 1",

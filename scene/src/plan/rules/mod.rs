@@ -5,6 +5,8 @@ mod clip;
 mod contours;
 mod halo;
 mod hatching;
+mod mesh;
+mod object;
 mod outlines;
 mod pen;
 mod picture;
@@ -47,7 +49,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 17] = [
+static ALL: [Rules; 21] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -61,10 +63,14 @@ static ALL: [Rules; 17] = [
     contours::RULES,
     style_mipmaps::RULES,
     halo::RULES,
+    object::COMBINE,
+    object::RULES,
+    object::INTERSECTION,
     stipples::RULES,
     hatching::RULES,
     outlines::RULES,
     surface::RULES,
+    mesh::RULES,
 ];
 
 /// The rules of the tables of a scene, those of a list of tables once for each item.

@@ -1,6 +1,7 @@
 //! Rules of `[shading]`: needs, keys without effect, knobs.
 
 use super::{Idle, Rules};
+use crate::lighting::LightingPreset;
 use crate::quantity::Quantity;
 use crate::tables::{Scene, Shading, ShadingModel, SurfaceLook, TransferKind};
 
@@ -8,10 +9,17 @@ use crate::tables::{Scene, Shading, ShadingModel, SurfaceLook, TransferKind};
 pub(super) const RULES: Rules = Rules {
     asks: |scene, asks| {
         let Some(shading) = scene.shading.as_ref().filter(|_| is_regular(scene) && asks.casts_rays()) else { return };
-        match shading.tones() {
-            None => asks.need(Quantity::Gradient, "shading", "shading"),
-            Some(toon) if toon.reads_normals() => asks.need(Quantity::Gradient, "toon shading", "shading.model"),
-            Some(_) => {}
+        match (shading.model, shading.tones()) {
+            (ShadingModel::Function, _) => {
+                asks.need(Quantity::Gradient, "lighting function", "shading.model");
+                if shading.reads_magnitude() {
+                    let key = if shading.table.is_some() { "shading.table" } else { "shading.preset" };
+                    asks.need(Quantity::GradientMagnitudeRange, "opacity enhancement", key);
+                }
+            }
+            (_, None) => asks.need(Quantity::Gradient, "shading", "shading"),
+            (_, Some(toon)) if toon.reads_normals() => asks.need(Quantity::Gradient, "toon shading", "shading.model"),
+            (_, Some(_)) => {}
         }
         if shading.silhouette.is_some() {
             asks.need(Quantity::Gradient, "silhouettes", "shading.silhouette");
@@ -34,10 +42,10 @@ pub(super) const RULES: Rules = Rules {
     ..Rules::new("shading")
 };
 
-/// Whether the scene has an iso-surface that is lit.
+/// Whether the scene has an iso-surface or a mesh that is lit.
 pub(super) fn lit_surface(scene: &Scene) -> bool {
     let lit = |look| matches!(look, SurfaceLook::Phong | SurfaceLook::Toon);
-    scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
+    !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
 }
 
 /// Whether its transfer function has colours, which light falls on.
@@ -53,22 +61,65 @@ pub(super) fn lit(scene: &Scene) -> bool {
 /// Which keys say nothing although something is lit.
 fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     let regular = is_regular(scene);
-    let toon = shading.model == ShadingModel::Toon;
-    let glossy = scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
-    if glossy || (regular && !toon) {
-        if shading.specular == 0.0 {
-            idle.key("shading.shininess", "specular is 0");
-        }
-    } else {
-        for key in ["shading.ambient", "shading.diffuse", "shading.specular", "shading.shininess"] {
-            idle.key(key, "nothing is lit by Blinn–Phong: tones are the table toon's");
-        }
+    let glossy =
+        !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| surface.look == SurfaceLook::Phong);
+    if !glossy {
+        idle_constants(shading, regular, idle);
+    } else if shading.specular == 0.0 {
+        idle.key("shading.shininess", "specular is 0");
     }
+    const OF_FUNCTIONS: [&str; 4] = ["shading.preset", "shading.table", "shading.contour", "shading.divisor_floor"];
     if !regular {
-        for key in ["shading.model", "shading.toon", "shading.silhouette", "shading.view_opacity"] {
+        let keys = ["shading.model", "shading.toon", "shading.silhouette", "shading.view_opacity"];
+        for key in keys.into_iter().chain(OF_FUNCTIONS) {
             idle.key(key, "it acts on a regular function; a surface has keys of its own");
         }
-    } else if !toon {
-        idle.key("shading.toon", "model is \"phong\"");
+        return;
+    }
+    let model = match shading.model {
+        ShadingModel::Phong => "model is \"phong\"",
+        ShadingModel::Toon => "model is \"toon\"",
+        ShadingModel::Function => "model is \"lighting-function\"",
+    };
+    if shading.model != ShadingModel::Toon {
+        idle.key("shading.toon", model);
+    }
+    if shading.model != ShadingModel::Function {
+        OF_FUNCTIONS.into_iter().for_each(|key| idle.key(key, model));
+    } else {
+        if !shading.lighting_preset().is_some_and(LightingPreset::has_contours) {
+            idle.key("shading.contour", "the lighting function has no contours that are generated");
+        }
+        if !shading.reads_magnitude() {
+            idle.key("shading.divisor_floor", "the preset does not enhance opacities");
+        }
+    }
+}
+
+/// Which constants of Blinn–Phong nothing reads, where no surface does.
+fn idle_constants(shading: &Shading, regular: bool, idle: &mut Idle) {
+    const SHARES: [&str; 2] = ["shading.ambient", "shading.diffuse"];
+    const HIGHLIGHT: [&str; 2] = ["shading.specular", "shading.shininess"];
+    let mut say = |keys: [&str; 2], why: &str| keys.into_iter().for_each(|key| idle.key(key, why));
+    if !regular || shading.model == ShadingModel::Toon {
+        let why = "nothing is lit by Blinn–Phong: tones are the table toon's";
+        say(SHARES, why);
+        say(HIGHLIGHT, why);
+        return;
+    }
+    if shading.lighting_file().is_some() {
+        let why = "the lighting function is read from a file";
+        say(SHARES, why);
+        say(HIGHLIGHT, why);
+        return;
+    }
+    let preset = shading.lighting_preset();
+    if preset.is_some_and(|preset| !preset.reads_shares()) {
+        say(SHARES, "the preset has shares of its own");
+    }
+    if preset.is_some_and(|preset| !preset.has_highlight()) {
+        say(HIGHLIGHT, "the preset has no highlight");
+    } else if shading.specular == 0.0 {
+        idle.key("shading.shininess", "specular is 0");
     }
 }

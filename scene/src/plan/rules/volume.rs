@@ -3,7 +3,7 @@
 use super::halo::halos_in_effect;
 use super::{Pass, Rules};
 use crate::quantity::Quantity;
-use crate::tables::{GradientRange, NormalSide, Unit, VolumeSource};
+use crate::tables::{GradientRange, NormalSide, Scene, Unit, VolumeSource};
 
 /// The rules of `[volume]`.
 pub(super) const RULES: Rules = Rules {
@@ -40,7 +40,7 @@ pub(super) const RULES: Rules = Rules {
             idle.key("volume.raw", other);
         }
         let why = match scene.volume.labels {
-            Some(_) if plan.reads_labels() => None,
+            Some(_) if plan.reads_labels() || selects_labels(scene) => None,
             Some(_) => Some("nothing reads a label"),
             None => Some("volume.labels names no label volume"),
         };
@@ -65,3 +65,8 @@ pub(super) const RULES: Rules = Rules {
     },
     ..Rules::new("volume")
 };
+
+/// Whether an object of the volume selects labels.
+fn selects_labels(scene: &Scene) -> bool {
+    scene.objects.iter().any(|object| object.volume.is_none() && object.label.is_some())
+}

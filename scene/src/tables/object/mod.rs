@@ -8,6 +8,7 @@ mod strokes;
 mod table;
 
 pub use ghost::GhostTable;
+pub(crate) use motion::{Factors, Matrix, ROTATION};
 pub use motion::{Motion, Rotation};
 pub use part_name::PartName;
 pub(crate) use part_name::PartNames;

@@ -24,7 +24,7 @@ table! {
 }
 
 /// The description of `rotate`.
-pub(super) static ROTATION: Table<Rotation> =
+pub(crate) static ROTATION: Table<Rotation> =
     Rotation::description("rotate of an object", "A rotation about an axis through `center`.");
 
 /// The affine motion M of a selection: M x = c + t + R·S·(x − c), or a matrix.
@@ -97,7 +97,7 @@ impl Rotation {
 }
 
 /// A factor other than 0 for all axes, or one for each.
-pub(super) struct Factors;
+pub(crate) struct Factors;
 
 const FACTOR: Number = Number { bounds: Bounds::ANY, unit: "" };
 const FACTORS: Numbers<3> = Numbers { what: "three factors [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free };
@@ -127,7 +127,7 @@ impl Kind for Factors {
 }
 
 /// Four rows of four numbers, the last 0 0 0 1.
-pub(super) struct Matrix;
+pub(crate) struct Matrix;
 
 const ROW: Numbers<4> = Numbers { what: "a row of four numbers", bounds: Bounds::ANY, rule: Rule::Free };
 

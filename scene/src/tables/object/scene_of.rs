@@ -1,9 +1,13 @@
 //! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
 
-use crate::tables::{ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable};
+use crate::tables::{
+    GhostTable, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
+};
+use serde::Serialize;
 
 /// A part of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// The selection, where M moves it; of an object that is not moved, where it is.
     Selection,
@@ -28,6 +32,7 @@ impl Scene {
         let transfer: [Option<&Transfer>; 2] = [ghost.and_then(|g| g.transfer.as_ref()), table.transfer.as_ref()];
         let shading: [Option<&Shading>; 2] = [ghost.and_then(|g| g.shading.as_ref()), table.shading.as_ref()];
         let mut scene = Self {
+            given: self.given.with_tables(&tables_of(object, table, ghost)),
             transfer: first(transfer).or_else(|| self.transfer.clone()),
             shading: first(shading).or_else(|| self.shading.clone()),
             styles: self.styles_of(object, ghost.is_some(), &|key| self.given.contains(key)),
@@ -35,31 +40,43 @@ impl Scene {
             objects: Vec::new(),
             combine: None,
             intersections: Vec::new(),
+            halos: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,
             surface: None,
+            meshes: Vec::new(),
             ..self.clone()
         };
         let own = match role {
             Role::Selection => PartName::Selection(table.name.clone()),
             Role::Ghost => PartName::Ghost(table.name.clone()),
         };
-        scene.keep_for(&own);
+        scene.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(&own));
         scene
     }
 
-    /// The scene of the background: without objects, and with the planes that cut it.
+    /// Whether a part has a table of shading of its own.
+    pub fn has_own_shading(&self, object: usize, role: Role) -> bool {
+        let table = &self.objects[object];
+        let of_ghost = table.ghost.as_ref().is_some_and(|ghost| role == Role::Ghost && ghost.shading.is_some());
+        table.shading.is_some() || of_ghost
+    }
+
+    /// A key of a part's scene as the scene itself says it.
+    pub(crate) fn key_of_part(&self, object: usize, role: Role, key: &str) -> String {
+        let table = &self.objects[object];
+        let tables = tables_of(object, table, table.ghost.as_ref().filter(|_| role == Role::Ghost));
+        let outer = tables.iter().find_map(|(outer, place)| {
+            let rest = key.strip_prefix(place)?;
+            (rest.is_empty() || rest.starts_with(['.', '['])).then(|| format!("{outer}{rest}"))
+        });
+        outer.unwrap_or_else(|| key.to_owned())
+    }
+
+    /// The scene of the background: without objects.
     pub fn of_background(&self) -> Self {
-        let mut scene = Self { objects: Vec::new(), combine: None, intersections: Vec::new(), ..self.clone() };
-        scene.keep_for(&PartName::Background);
-        scene
-    }
-
-    /// Keeps the clip planes and the halos that act on a part.
-    fn keep_for(&mut self, part: &PartName) {
-        self.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(part));
-        self.halos.retain(|halo| halo.object.as_ref().is_none_or(|object| object == part));
+        Self { objects: Vec::new(), combine: None, intersections: Vec::new(), ..self.clone() }
     }
 
     /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
@@ -81,7 +98,10 @@ impl Scene {
 
     /// The table of an object's data.
     fn volume_of(&self, object: &ObjectTable) -> VolumeTable {
-        let Some(path) = &object.volume else { return self.volume.clone() };
+        let Some(path) = &object.volume else {
+            // The data are those of the picture, whose parts are kept and whose ids are shown already.
+            return VolumeTable { parts: None, ids: Ids::Values, ..self.volume.clone() };
+        };
         VolumeTable {
             labels: object.labels.clone(),
             label_names: object.label_names.clone(),
@@ -91,6 +111,23 @@ impl Scene {
             ..VolumeTable::new(VolumeSource::File { path: path.clone(), raw: None })
         }
     }
+}
+
+/// The tables of a part's scene that its object or its ghost says, each with the key that it has as the picture's.
+fn tables_of(object: usize, table: &ObjectTable, ghost: Option<&GhostTable>) -> Vec<(String, &'static str)> {
+    let outer = |of_ghost: bool, of_object: bool, name: &'static str| match (of_ghost, of_object) {
+        (true, _) => Some((format!("object[{object}].ghost.{name}"), name)),
+        (false, true) => Some((format!("object[{object}].{name}"), name)),
+        (false, false) => None,
+    };
+    let own = table.volume.is_some().then(|| (format!("object[{object}]"), "volume"));
+    let tables = [
+        outer(ghost.is_some_and(|g| g.transfer.is_some()), table.transfer.is_some(), "transfer"),
+        outer(ghost.is_some_and(|g| g.shading.is_some()), table.shading.is_some(), "shading"),
+        outer(ghost.is_some_and(|g| g.styles.is_some()), table.styles.is_some(), "styles"),
+        own,
+    ];
+    tables.into_iter().flatten().collect()
 }
 
 fn first<T: Clone>(tables: [Option<&T>; 2]) -> Option<T> {

@@ -61,6 +61,11 @@ impl LabelVolume {
         &self.grid
     }
 
+    /// The anatomical directions of the file's world, if it has some.
+    pub fn anatomy(&self) -> Option<Anatomy> {
+        self.anatomy
+    }
+
     /// The grid of the voxels in a world of the anatomical directions `world` ([SPACE-2]).
     pub fn grid_in(&self, world: Option<Anatomy>) -> Grid {
         Anatomy::between(&self.grid, self.anatomy, world)

@@ -1,0 +1,112 @@
+//! A tree of boxes about triangles.
+
+use drypoint_scene::glam::DVec3;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+
+/// A tree over boxes. Its leaves have one box each.
+#[derive(Clone, Debug)]
+pub(super) struct BoxTree {
+    nodes: Vec<Node>,
+}
+
+/// A node of the tree.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    lo: DVec3,
+    hi: DVec3,
+    /// The first of two children side by side, or the box of a leaf.
+    first: u32,
+    is_leaf: bool,
+}
+
+/// A line prepared for boxes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slabs {
+    origin: DVec3,
+    inverse: DVec3,
+}
+
+impl Slabs {
+    /// The line origin + t·along.
+    pub(super) fn new([origin, along]: [DVec3; 2]) -> Self {
+        Self { origin, inverse: along.recip() }
+    }
+
+    /// The parameter at which the line enters a box, none if it misses the box. The parameter is a little early, and
+    /// a box that the line passes closely counts as met.
+    fn enters(&self, node: &Node) -> Option<f64> {
+        /// Relative errors of differences and products here, and of the test of a triangle, are a few ε.
+        const SLACK: f64 = 64.0 * f64::EPSILON;
+        let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+        for axis in 0..3 {
+            let (o, inverse) = (self.origin[axis], self.inverse[axis]);
+            let margin = SLACK * (o.abs() + node.lo[axis].abs().max(node.hi[axis].abs()));
+            let [lo, hi] = [node.lo[axis] - margin - o, node.hi[axis] + margin - o];
+            if inverse.is_infinite() {
+                if lo > 0.0 || hi < 0.0 {
+                    return None;
+                }
+                continue;
+            }
+            let (a, b) = (lo * inverse, hi * inverse);
+            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+        }
+        let slack = |t: f64| SLACK * t.abs();
+        (enter - slack(enter) <= leave + slack(leave)).then(|| enter - slack(enter))
+    }
+}
+
+impl BoxTree {
+    /// Builds the tree over boxes, each of a lowest and a highest corner. There is at least one.
+    pub(super) fn new(boxes: &[[DVec3; 2]]) -> Self {
+        // f64 rounds to the nearest f32, from which the next one is on the safe side. Beyond the range of f32 a box has
+        // no end.
+        let lo = |x: f64| (x as f32).next_down();
+        let hi = |x: f64| (x as f32).next_up();
+        let bound = |&[from, to]: &[DVec3; 2]| {
+            let clamp = |x: f32| x.clamp(f32::MIN, f32::MAX);
+            let corner = |v: DVec3, round: fn(f64) -> f32| v.to_array().map(|x| clamp(round(x)));
+            Aabb::new(corner(from, lo).into(), corner(to, hi).into())
+        };
+        let bounds: Vec<Aabb> = boxes.iter().map(bound).collect();
+        let indices = (0..bounds.len() as u32).collect();
+        let built = PlocBuilder::new().build(PlocSearchDistance::Low, &bounds, indices, SortPrecision::U64, 0);
+        let open_lo = |x: f32| if x > f32::MIN { f64::from(x) } else { f64::NEG_INFINITY };
+        let open_hi = |x: f32| if x < f32::MAX { f64::from(x) } else { f64::INFINITY };
+        let node = |n: &Bvh2Node| Node {
+            lo: DVec3::from_array([0, 1, 2].map(|a| open_lo(n.aabb().min[a]))),
+            hi: DVec3::from_array([0, 1, 2].map(|a| open_hi(n.aabb().max[a]))),
+            first: if n.is_leaf() { built.primitive_indices[n.first_index as usize] } else { n.first_index },
+            is_leaf: n.is_leaf(),
+        };
+        Self { nodes: built.nodes.iter().map(node).collect() }
+    }
+
+    /// Bytes in memory.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+    }
+
+    /// Visits the boxes that a line can meet up to a parameter, nearer ones first as a rule. `visit` receives a box and
+    /// returns the parameter up to which further ones are asked for.
+    pub(super) fn visit(&self, line: &Slabs, mut until: f64, mut visit: impl FnMut(u32) -> f64) {
+        let mut open: Vec<(f64, &Node)> = Vec::with_capacity(64);
+        let enter = |node| line.enters(node).map(|t| (t, node));
+        open.extend(self.nodes.first().and_then(enter));
+        while let Some((t, node)) = open.pop() {
+            if t > until {
+                continue;
+            }
+            if node.is_leaf {
+                until = visit(node.first);
+                continue;
+            }
+            let children = node.first as usize;
+            let (a, b) = (enter(&self.nodes[children]), enter(&self.nodes[children + 1]));
+            let is_nearer = matches!((a, b), (Some((a, _)), Some((b, _))) if a <= b);
+            open.extend(if is_nearer { [b, a] } else { [a, b] }.into_iter().flatten());
+        }
+    }
+}

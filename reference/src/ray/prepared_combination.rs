@@ -1,0 +1,264 @@
+//! The objects of a picture prepared for its samples ([VS-2] … [VS-4], [VS-7]).
+
+use super::composite::depth_of_part;
+use super::inputs::{Inputs, RenderError};
+use super::lattice::IndexRay;
+use super::prepare::{Camera, Fields, Place, prepare_object};
+use super::prepared::Prepared;
+use super::sample::PreparedObject;
+use crate::field::Field;
+use crate::number::{Mat3, Real};
+use crate::transfer::Piecewise;
+use crate::volumeshop::far_side::through_box;
+use crate::volumeshop::{FunnelMap, Memberships, guard};
+use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::{DAffine3, DVec3};
+use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::shot::{
+    Combination, Cutaway, Fuzzy, Intersection, Membership, Object, Part, Role, SelectionParams, placed,
+};
+use drypoint_scene::space::Grid;
+use drypoint_scene::view::View;
+use drypoint_scene::volume::{Anatomy, Bricks, Volume};
+use rayon::prelude::*;
+
+/// Objects ready for samples.
+pub(super) struct PreparedCombination<'v, R> {
+    pub(super) fuzzy: Fuzzy,
+    pub(super) selections: Vec<PreparedSelection<'v, R>>,
+    /// In the order of the shot's parts.
+    pub(super) parts: Vec<PreparedPart<'v, R>>,
+    pub(super) cutaways: Vec<PreparedCutaway>,
+    pub(super) intersections: Vec<PreparedIntersection<'v>>,
+}
+
+/// A selection ready for look-ups.
+pub(super) struct PreparedSelection<'v, R> {
+    pub(super) membership: PreparedMembership<'v, R>,
+    /// The box of [VS-2], in the index space of the memberships' grid; none: nothing is selected.
+    pub(super) index_box: Option<[DVec3; 2]>,
+    /// The grid of the memberships at the original place.
+    pub(super) here: Grid,
+    /// The grid of the memberships where M moves it; none: the object is not moved.
+    pub(super) there: Option<Grid>,
+    /// Whether the selection is a piece of the background's volume, which it is taken from.
+    pub(super) takes: bool,
+}
+
+/// f_S ready for look-ups.
+pub(super) enum PreparedMembership<'v, R> {
+    /// 1 in the data's box.
+    Everything,
+    /// A function of the data's value.
+    Value(Piecewise<R>),
+    /// A selection volume.
+    Voxels(Memberships<'v>),
+}
+
+/// A selection or a ghost ready for samples.
+pub(super) struct PreparedPart<'v, R> {
+    pub(super) object: PreparedObject<'v, R>,
+    /// The place of its selection.
+    pub(super) selection: usize,
+    /// Whether it is drawn where M moves it.
+    pub(super) is_moved: bool,
+    /// Whether its samples are those of the background: the same volume at the same place.
+    pub(super) is_of_background: bool,
+    /// The bricks of its volume in which its function can show something; none where nothing is skipped.
+    shows: Option<Shows>,
+}
+
+/// Which bricks can show something.
+struct Shows {
+    bricks: Bricks,
+    /// For each brick, whether it can.
+    can: Vec<bool>,
+}
+
+/// A cutaway with what depends on the camera.
+pub(super) struct PreparedCutaway {
+    pub(super) params: Cutaway,
+    /// The map of its funnel; none: a hard cut.
+    pub(super) funnel: Option<FunnelMap>,
+}
+
+/// An intersection ready for samples.
+pub(super) struct PreparedIntersection<'v> {
+    pub(super) params: Intersection,
+    pub(super) picture: Option<&'v IntersectionPicture>,
+}
+
+impl<'v, R: Real> PreparedCombination<'v, R> {
+    /// Prepares the objects of a shot.
+    ///
+    /// # Errors
+    /// Data that were not handed over, and what a part of a picture of its own could be refused for.
+    pub(super) fn new(
+        combination: &Combination,
+        inputs: &Inputs<'v>,
+        camera: &Camera<'_>,
+        fields: &mut Fields<'v, R>,
+        counts: &mut Counts,
+    ) -> Result<Self, RenderError> {
+        let given = &inputs.objects;
+        if given.parts.len() != combination.parts.len()
+            || given.selections.len() != combination.selections.len()
+            || given.pictures.len() != combination.intersections.len()
+        {
+            return Err(RenderError::NoObjects);
+        }
+        let world = inputs.volume.anatomy();
+        let parts: Result<Vec<_>, RenderError> = combination
+            .parts
+            .iter()
+            .zip(&given.parts)
+            .map(|(part, of_part)| {
+                let selection = &combination.selections[part.object];
+                let motion = selection.motion.filter(|_| part.role == Role::Selection);
+                PreparedPart::new(part, motion, (inputs.volume, of_part), camera, fields, counts)
+            })
+            .collect();
+        let parts = parts?;
+        let selections = combination.selections.iter().zip(&given.selections).enumerate();
+        let selections: Result<Vec<_>, RenderError> = selections
+            .map(|(i, (params, memberships))| {
+                let data = combination.parts.iter().position(|part| part.object == i);
+                let data = data.map_or(inputs.volume, |part| given.parts[part].volume);
+                let (grid, membership) = match (&params.membership, memberships) {
+                    (Membership::Voxels, None) => return Err(RenderError::NoObjects),
+                    (Membership::Voxels, Some(selection)) => {
+                        *counts.bytes.entry("selections".into()).or_default() += selection.memberships.bytes() as u64;
+                        let memberships = Memberships::new(&selection.memberships);
+                        (selection.grid_in(world), PreparedMembership::Voxels(memberships))
+                    }
+                    (Membership::Everything, _) => (grid_in(data, world), PreparedMembership::Everything),
+                    (Membership::Value(pairs), _) => {
+                        let [at, f] = [0, 1].map(|i| pairs.iter().map(|pair| pair[i]).collect::<Vec<_>>());
+                        (grid_in(data, world), PreparedMembership::Value(Piecewise::new(&at, &f)?))
+                    }
+                };
+                PreparedSelection::new(params, grid, membership)
+            })
+            .collect();
+        let pictures = combination.intersections.iter().zip(&given.pictures);
+        Ok(Self {
+            fuzzy: combination.fuzzy,
+            selections: selections?,
+            parts,
+            cutaways: combination.cutaways.iter().map(|&params| PreparedCutaway { params, funnel: None }).collect(),
+            intersections: pictures
+                .map(|(params, &picture)| PreparedIntersection { params: params.clone(), picture })
+                .collect(),
+        })
+    }
+
+    /// The map of a cutaway's funnel; none for a hard cut.
+    pub(super) fn funnel_of(
+        &self,
+        cutaway: usize,
+        prepared: &Prepared<'_, R>,
+        counts: &mut Counts,
+    ) -> Option<FunnelMap> {
+        let params = self.cutaways[cutaway].params;
+        if params.funnel <= 0.0 {
+            return None;
+        }
+        let (size, guard) = (prepared.view.size, guard(params.funnel));
+        let [width, height] = size.map(|n| n + 2 * guard);
+        let row = |y: usize| {
+            let mut counts = Counts::default();
+            let centre = |i: usize| i as f64 - guard as f64 + 0.5;
+            let depth = |x: usize| {
+                depth_of_part(prepared, self, [centre(x), centre(y)], (params.part, params.cut), &mut counts)
+            };
+            let depths: Vec<f64> = (0..width).map(depth).collect();
+            (depths, counts)
+        };
+        let rows: Vec<(Vec<f64>, Counts)> = (0..height).into_par_iter().map(row).collect();
+        let mut depths = Vec::with_capacity(width * height);
+        for (row, own) in rows {
+            depths.extend(row);
+            counts.add(&own);
+        }
+        Some(FunnelMap::new(size, params.funnel, &depths))
+    }
+
+    /// Whether the ray through a point of the picture can meet an object, or a cutaway for one.
+    pub(super) fn meets(&self, prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
+        let pixel = prepared.view.ray(point[0], point[1]);
+        let through = |grid: &Grid, ends: Option<[DVec3; 2]>| {
+            let line = IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, grid).line();
+            ends.is_some_and(|ends| through_box(line, ends).is_some())
+        };
+        let in_picture = [0, 1].map(|a| (point[a].max(0.0) as usize).min(prepared.view.size[a] - 1));
+        let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|map| map.cuts(in_picture));
+        self.selections
+            .iter()
+            .any(|s| through(&s.here, s.index_box) || s.there.as_ref().is_some_and(|grid| through(grid, s.index_box)))
+            || self.cutaways.iter().any(in_funnel)
+    }
+
+    /// Takes over what depends on the camera.
+    pub(super) fn turn(&mut self, combination: &Combination, view: &View) {
+        for (prepared, part) in self.parts.iter_mut().zip(&combination.parts) {
+            prepared.object.shader.turn(&part.drawn, view);
+        }
+    }
+}
+
+impl<'v, R: Real> PreparedSelection<'v, R> {
+    fn new(params: &SelectionParams, here: Grid, membership: PreparedMembership<'v, R>) -> Result<Self, RenderError> {
+        let there = params.motion.map(|motion| placed(&here, Some(motion)).map_err(|_| RenderError::Motion));
+        Ok(Self {
+            membership,
+            index_box: params.index_box,
+            there: there.transpose()?,
+            here,
+            takes: !params.has_own_volume,
+        })
+    }
+}
+
+impl<'v, R: Real> PreparedPart<'v, R> {
+    fn new(
+        part: &Part,
+        motion: Option<DAffine3>,
+        (main, inputs): (&Volume, &Inputs<'v>),
+        camera: &Camera<'_>,
+        fields: &mut Fields<'v, R>,
+        counts: &mut Counts,
+    ) -> Result<Self, RenderError> {
+        let volume = inputs.volume;
+        let is_of_background = std::ptr::eq(volume, main) && motion.is_none();
+        let grid = placed(&grid_in(volume, main.anatomy()), motion).map_err(|_| RenderError::Motion)?;
+        // L_T maps vectors of the picture's world to those of the data's.
+        let to_data = volume.grid().axes() * grid.inverse_axes();
+        let moved = (grid.axes() != volume.grid().axes()).then(|| Mat3::from_glam(to_data.transpose()));
+        let field = fields.of(volume, &part.drawn)?;
+        let shows = part.drawn.skip_empty.then(|| Shows::new(&field, &part.drawn));
+        let place = Place { grid, moved };
+        let object = prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
+        Ok(Self { object, selection: part.object, is_moved: motion.is_some(), is_of_background, shows })
+    }
+
+    /// Whether a sample in a cell of its volume can show something.
+    #[inline]
+    pub(super) fn can_show(&self, cell: [usize; 3]) -> bool {
+        self.shows.as_ref().is_none_or(|shows| shows.can[shows.bricks.of_cell(cell)])
+    }
+}
+
+impl Shows {
+    /// Looks at the bricks of a field.
+    fn new<R: Real>(field: &Field<'_, R>, object: &Object) -> Self {
+        let bricks = field.bricks();
+        let rounded = |at| R::from_f64(at).to_f64();
+        let can = bricks.ranges.iter().map(|&range| object.function.can_be_visible(range, None, rounded)).collect();
+        Self { bricks, can }
+    }
+}
+
+/// The grid of a volume in a world of the anatomical directions `world` ([SPACE-2]).
+fn grid_in(volume: &Volume, world: Option<Anatomy>) -> Grid {
+    Anatomy::between(volume.grid(), volume.anatomy(), world)
+}

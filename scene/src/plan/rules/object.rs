@@ -1,0 +1,174 @@
+//! Rules of `[[object]]`, `[combine]` and `[[intersection]]`: needs and keys without effect.
+
+use super::{Asks, Idle, Pass, Rules};
+use crate::plan::{Plan, Samples};
+use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene};
+
+/// The rules of `[[object]]`.
+pub(super) const RULES: Rules = Rules {
+    items: Some(|scene| scene.objects.len()),
+    asks: |scene, asks| {
+        let item = asks.at.item.filter(|_| asks.casts_rays());
+        let Some((item, object)) = item.and_then(|item| Some((item, scene.objects.get(item)?))) else { return };
+        asks_of(scene, item, object, asks);
+    },
+    idle: |scene, plan, idle| {
+        let Some(object) = idle.at.item.and_then(|item| scene.objects.get(item)) else { return };
+        if !plan.has_pass(Pass::Rays) {
+            let key = idle.at.key.clone();
+            return idle.key(&key, "the volume itself is not drawn");
+        }
+        idle_keys(object, idle);
+    },
+    ..Rules::new("object")
+};
+
+/// The rules of `[combine]`.
+pub(super) const COMBINE: Rules = Rules {
+    idle: |scene, _, idle| {
+        if scene.objects.is_empty() {
+            idle.key("combine", "there are no objects to combine");
+        }
+    },
+    ..Rules::new("combine")
+};
+
+/// The rules of `[[intersection]]`.
+pub(super) const INTERSECTION: Rules = Rules {
+    items: Some(|scene| scene.intersections.len()),
+    asks: |scene, asks| {
+        let item = asks.at.item.filter(|_| asks.casts_rays());
+        if item.is_some_and(|item| why_idle(scene, item).is_none()) {
+            let effect = format!("intersection {}", item.unwrap_or_default());
+            let key = asks.at.key.clone();
+            asks.pass(Pass::Intersections, &effect, &key);
+        }
+    },
+    idle: |scene, _, idle| {
+        if let Some(why) = idle.at.item.and_then(|item| why_idle(scene, item)) {
+            let key = idle.at.key.clone();
+            idle.key(&key, why);
+        }
+    },
+    ..Rules::new("intersection")
+};
+
+/// Asks for what an object and its parts are made of.
+fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
+    let at = asks.at.clone();
+    let roles = [Some(Role::Selection), object.motion.is_moved().then_some(Role::Ghost)];
+    for role in roles.into_iter().flatten() {
+        let part = match role {
+            Role::Selection => PartName::Selection(object.name.clone()),
+            Role::Ghost => PartName::Ghost(object.name.clone()),
+        };
+        // Its look may need other quantities than the picture's, at its own samples.
+        for need in Plan::new(&scene.of_part(item, role)).needs {
+            let effect = format!("{part}: {}", need.effect);
+            asks.need_at(need.quantity, Samples::Part, &effect, &scene.key_of_part(item, role, &need.key));
+        }
+    }
+    let effect = format!("object {}", object.name);
+    asks.pass(Pass::Selections, &effect, &at.key);
+    if object.motion.is_moved() {
+        asks.pass(Pass::MovedSelections, &effect, &at.inner("move"));
+    }
+    let cuts = [(object.ghosting, "ghosting"), (object.ghosting_of_ghost, "ghosting_of_ghost")];
+    for (_, key) in cuts.into_iter().filter(|(ghosting, key)| *ghosting > 0.0 && acts(object, key)) {
+        asks.pass(Pass::Cutaways, &effect, &at.inner(key));
+        if object.funnel.is_some() {
+            asks.pass(Pass::Funnels, &effect, &at.inner("funnel"));
+        }
+    }
+}
+
+/// Whether a ghosting factor acts: only a moved object has a ghost.
+fn acts(object: &ObjectTable, key: &str) -> bool {
+    key == "ghosting" || object.motion.is_moved()
+}
+
+/// Lists the keys of an object that say nothing beside its others.
+fn idle_keys(object: &ObjectTable, idle: &mut Idle) {
+    let at = idle.at.clone();
+    let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
+    if !object.motion.is_moved() {
+        key("ghosting_of_ghost", "the object is not moved: it has no ghost");
+        key("ghost", "the object is not moved: it has no ghost");
+    }
+    if object.motion.scale == glam::DVec3::ONE && object.motion.rotation.is_none() {
+        key("center", "nothing is scaled or rotated");
+    }
+    if object.ghosting == 0.0 && (object.ghosting_of_ghost == 0.0 || !object.motion.is_moved()) {
+        key("cut", "nothing is cut away: ghosting is 0");
+        key("funnel", "nothing is cut away: ghosting is 0");
+    }
+    if object.label.is_none() {
+        key("labels", "no label is selected, and the function may read none");
+    }
+}
+
+/// Why an intersection has no effect; none if it has one.
+fn why_idle(scene: &Scene, item: usize) -> Option<&'static str> {
+    let table = scene.intersections.get(item)?;
+    let object = scene.objects.iter().find(|object| object.name == table.object)?;
+    let is_moved = object.motion.is_moved();
+    match table.with {
+        Opposite::Ghost if !is_moved => Some("the object is not moved: it has no ghost"),
+        Opposite::Background if !is_moved && object.volume.is_none() => {
+            Some("the object is not moved: its selection is a piece of the background")
+        }
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use crate::plan::Plan;
+    use crate::quantity::Quantity;
+    use std::path::Path;
+
+    fn plan(rest: &str) -> Plan {
+        let text = format!(
+            "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n[transfer]\nkind = \"regular\"\n\
+             nodes = [{{ at = 1, color = \"red\" }}]\n{rest}"
+        );
+        let scene = parse(&text, Path::new("scene.toml"), &Overrides::default());
+        Plan::new(&scene.unwrap_or_else(|faults| panic!("{faults}")))
+    }
+
+    /// The needs of an object's look are its own: the background of an unshaded picture stays unshaded.
+    #[test]
+    fn an_object_needs_what_its_own_look_is_made_of() {
+        let plan = plan("[[object]]\nname = \"knee\"\n[object.shading]\n");
+        assert!(!plan.needs_anywhere(Quantity::Gradient));
+        let text = plan.to_string();
+        assert!(text.contains("knee: shading") && text.contains("object[0].shading (line 9)"), "{text}");
+        assert!(
+            text.contains("selections") && !text.contains("moved selections") && !text.contains("cut depths"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn only_what_acts_is_asked_for() {
+        let moved = plan(
+            "[[object]]\nmove = [1, 0, 0]\nghosting = 0.5\nfunnel = \"3 px\"\n[[intersection]]\nobject = \"object 0\"\n",
+        );
+        let text = moved.to_string();
+        for pass in ["moved selections", "cut depths", "funnels", "intersections"] {
+            assert!(text.contains(pass), "{pass}\n{text}");
+        }
+        assert!(moved.idle_keys.is_empty(), "{text}");
+        let still = plan(
+            "[combine]\n[[object]]\ncenter = [0, 0, 0]\nghosting_of_ghost = 1\ncut = \"object\"\n[object.ghost]\n\
+             [[intersection]]\nobject = \"object 0\"\nwith = \"background\"\n",
+        );
+        let idle: Vec<&str> = still.idle_keys.iter().map(|idle| idle.key.as_str()).collect();
+        assert_eq!(
+            idle,
+            ["object[0].center", "object[0].ghosting_of_ghost", "object[0].cut", "object[0].ghost", "intersection[0]"]
+        );
+        assert!(plan("[combine]\n").idle_keys.iter().any(|idle| idle.key == "combine"));
+    }
+}

@@ -1,0 +1,256 @@
+//! The combination of objects in a picture: selections, ghosts, cutaways and intersections ([VS-2] … [VS-4], [VS-7]).
+
+use super::{Clipping, Object, Shot, ShotError, VolumeFacts};
+use crate::plan::Plan;
+use crate::space::Grid;
+use crate::tables::{
+    Cut, Fuzzy, IntersectionColor, IntersectionOpacity, IntersectionTable, ObjectTable, Opposite, Role, Scene,
+};
+use crate::transfer::Function;
+use crate::view::View;
+use glam::{DAffine3, DVec3};
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Objects that are drawn with the background, which is the shot's own object.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Combination {
+    /// The operators of fuzzy sets ([VS-3]).
+    pub fuzzy: Fuzzy,
+    /// The selections of the objects, in their order.
+    pub selections: Vec<SelectionParams>,
+    /// What is drawn of the objects, in their order; of each its selection before its ghost.
+    pub parts: Vec<Part>,
+    /// Cutaways of the background ([VS-7]).
+    pub cutaways: Vec<Cutaway>,
+    /// Where a selection meets something ([VS-4]).
+    pub intersections: Vec<Intersection>,
+}
+
+/// The selection of an object: f_S, and where M moves it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SelectionParams {
+    /// f_S.
+    pub membership: Membership,
+    /// The box of [VS-2] in the index space of the memberships' grid; none: nothing is selected.
+    pub index_box: Option<[DVec3; 2]>,
+    /// M, from the original place to the selection's; none: the object is not moved.
+    pub motion: Option<DAffine3>,
+    /// Whether the object has data of its own. Then it takes nothing from the background.
+    pub has_own_volume: bool,
+}
+
+/// f_S of an object.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Membership {
+    /// 1 in the box of the object's data.
+    Everything,
+    /// A piecewise-linear function of the data's value, as pairs; 0 outside the data's box.
+    Value(Vec<[f64; 2]>),
+    /// A selection volume, which the renderer is handed: trilinear, 0 outside its box.
+    Voxels,
+}
+
+/// A selection or a ghost as it is drawn.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Part {
+    /// The place of its object.
+    pub object: usize,
+    /// Whether it is the selection or the ghost.
+    pub role: Role,
+    /// Its data, function and material.
+    pub drawn: Object,
+    /// The planes that cut it, in the index space of its data where it is drawn.
+    pub clipping: Clipping,
+}
+
+/// A cutaway: the background before a part fades ([VS-7]).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Cutaway {
+    /// The place of the part among [`Combination::parts`].
+    pub part: usize,
+    /// γ, above 0.
+    pub ghosting: f64,
+    /// How d is found.
+    pub cut: Cut,
+    /// σ of the funnel in pixels; 0: a hard cut.
+    pub funnel: f64,
+}
+
+/// The look of a place where a selection meets its ghost or the background.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Intersection {
+    /// The place of its table in the scene.
+    pub table: usize,
+    /// The place of the selection among [`Combination::parts`].
+    pub selection: usize,
+    /// The place of the ghost; none: the background.
+    pub ghost: Option<usize>,
+    /// Its colour.
+    pub color: IntersectionPaint,
+    /// Its opacity of both opacities.
+    pub opacity: IntersectionOpacity,
+    /// Whether both opacities are exchanged.
+    pub swap: bool,
+}
+
+/// The colour of an intersection.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum IntersectionPaint {
+    /// The mean of both colours by their opacities.
+    Mean,
+    /// A linear straight colour, and the factor of the opacity.
+    Color([f64; 3], f64),
+    /// A picture, which the renderer is handed, over the value at p and that at T p: the ranges that its columns and its rows
+    /// stand for ([VAL-1]).
+    Picture([[f64; 2]; 2]),
+}
+
+/// What a part's shot depends on.
+#[derive(Clone, Debug)]
+pub struct PartFacts<'a> {
+    /// The scene of the part ([`Scene::of_part`]).
+    pub scene: &'a Scene,
+    /// Its plan.
+    pub plan: &'a Plan,
+    /// Its transfer function.
+    pub function: Arc<Function>,
+    /// The grid of its data in the picture's world.
+    pub grid: &'a Grid,
+    /// Whether its file holds integers.
+    pub is_integer: bool,
+    /// The range of its values ([VAL-1]).
+    pub range: [f64; 2],
+}
+
+/// What only data can tell of a selection.
+#[derive(Clone, Debug)]
+pub struct SelectionFacts {
+    /// The grid of its memberships in the picture's world.
+    pub grid: Grid,
+    /// The box of [VS-2] in its index space; none: nothing is selected.
+    pub index_box: Option<[DVec3; 2]>,
+}
+
+impl SelectionFacts {
+    /// The centre of the box, or of the grid if nothing is selected, in world space.
+    fn centre(&self) -> DVec3 {
+        let [lo, hi] = self.index_box.unwrap_or_else(|| self.grid.index_box());
+        self.grid.to_world((lo + hi) * 0.5)
+    }
+}
+
+impl Shot {
+    /// Adds the objects of a scene: the facts of their selections, in their order, and of their parts, in that of
+    /// [`Scene::parts`]. `range` is that of `[volume]` ([VAL-1]).
+    ///
+    /// # Errors
+    /// See [`Shot::resolve`], of a part.
+    pub fn with_objects(
+        self,
+        scene: &Scene,
+        main: VolumeFacts<'_>,
+        range: [f64; 2],
+        selections: &[SelectionFacts],
+        facts: &[PartFacts<'_>],
+    ) -> Result<Self, ShotError> {
+        let described: Vec<SelectionParams> =
+            scene.objects.iter().zip(selections).map(|(table, facts)| SelectionParams::new(table, facts)).collect();
+        let places: Vec<(usize, Role)> = scene.parts().collect();
+        let parts: Result<Vec<Part>, ShotError> = places
+            .iter()
+            .zip(facts)
+            .map(|(&(object, role), facts)| {
+                let motion = described[object].motion.filter(|_| role == Role::Selection);
+                Part::new((object, role), motion, facts, &self.view, main)
+            })
+            .collect();
+        let place = |object: usize, role: Role| places.iter().position(|&part| part == (object, role));
+        let cutaways = scene.objects.iter().enumerate().flat_map(|(i, table)| {
+            let sigma = table.funnel.map_or(0.0, |length| scene.picture.in_pixels(length).unwrap_or(0.0));
+            let of = move |role, ghosting| (i, role, ghosting, table.cut, sigma);
+            [of(Role::Selection, table.ghosting), of(Role::Ghost, table.ghosting_of_ghost)]
+        });
+        let cutaways = cutaways.filter_map(|(object, role, ghosting, cut, funnel)| {
+            let part = place(object, role).filter(|_| ghosting > 0.0)?;
+            Some(Cutaway { part, ghosting, cut, funnel })
+        });
+        let cutaways = cutaways.collect();
+        let intersection = |(place_of_table, table): (usize, &IntersectionTable)| {
+            let object = scene.objects.iter().position(|object| object.name == table.object)?;
+            let (selection, params) = (place(object, Role::Selection)?, &described[object]);
+            let ghost = match table.with {
+                Opposite::Ghost => Some(place(object, Role::Ghost)?),
+                // The selection of an object that is not moved is a piece of the background.
+                Opposite::Background if params.motion.is_none() && !params.has_own_volume => return None,
+                Opposite::Background => None,
+            };
+            let here = if ghost.is_some() { facts[selection].range } else { range };
+            let color = match table.color {
+                IntersectionColor::Mean => IntersectionPaint::Mean,
+                IntersectionColor::Color([r, g, b, opacity]) => IntersectionPaint::Color([r, g, b], opacity),
+                IntersectionColor::Picture(_) => IntersectionPaint::Picture([here, facts[selection].range]),
+            };
+            Some(Intersection {
+                table: place_of_table,
+                selection,
+                ghost,
+                color,
+                opacity: table.opacity,
+                swap: table.swap,
+            })
+        };
+        let combination = Combination {
+            fuzzy: scene.combine.map_or(Fuzzy::Zadeh, |table| table.fuzzy),
+            parts: parts?,
+            cutaways,
+            intersections: scene.intersections.iter().enumerate().filter_map(intersection).collect(),
+            selections: described,
+        };
+        Ok(Self { combination: Some(combination), ..self })
+    }
+}
+
+impl SelectionParams {
+    fn new(table: &ObjectTable, facts: &SelectionFacts) -> Self {
+        Self {
+            membership: match &table.value {
+                Some(pairs) => Membership::Value(pairs.clone()),
+                None if table.selection.is_none() && table.label.is_none() && table.strokes.is_none() => {
+                    Membership::Everything
+                }
+                None => Membership::Voxels,
+            },
+            index_box: facts.index_box,
+            motion: table.motion.is_moved().then(|| table.motion.map(facts.centre())),
+            has_own_volume: table.volume.is_some(),
+        }
+    }
+}
+
+impl Part {
+    fn new(
+        (object, role): (usize, Role),
+        motion: Option<DAffine3>,
+        facts: &PartFacts<'_>,
+        view: &View,
+        main: VolumeFacts<'_>,
+    ) -> Result<Self, ShotError> {
+        let of_data = VolumeFacts { grid: main.grid, is_integer: facts.is_integer };
+        let drawn = Object::resolve(facts.scene, facts.plan, of_data, facts.function.clone(), view)?;
+        let placed = placed(facts.grid, motion)?;
+        Ok(Self { object, role, drawn, clipping: Clipping::of_part(facts.scene, main.grid, &placed) })
+    }
+}
+
+/// A grid where a motion puts it.
+///
+/// # Errors
+/// A motion that moves it out of the range of numbers.
+pub fn placed(grid: &Grid, motion: Option<DAffine3>) -> Result<Grid, ShotError> {
+    let Some(motion) = motion else { return Ok(grid.clone()) };
+    let (axes, origin) = (motion.matrix3 * grid.axes(), motion.transform_point3(grid.origin()));
+    Grid::new(grid.dims(), axes, origin).map_err(|_| ShotError::Motion)
+}

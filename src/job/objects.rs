@@ -1,0 +1,262 @@
+//! The objects of a job: their data, selections and looks ([VS-2]).
+
+use super::{Job, RenderTarget, is_integer, plan_for, shot_failure};
+use crate::labels::SceneLabels;
+use crate::{Failure, Failures};
+use drypoint_output::read::read_intersection_picture;
+use drypoint_reference::ray::ObjectInputs;
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::plan::Plan;
+use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
+use drypoint_scene::space::Grid;
+use drypoint_scene::tables::{IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
+use drypoint_scene::transfer::Function;
+use drypoint_scene::volume::{Anatomy, Selection, Volume, read};
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// The objects of a job.
+#[derive(Default)]
+pub(super) struct Objects {
+    /// Selections and ghosts, in the order of [`Scene::parts`].
+    parts: Vec<ObjectPart>,
+    /// The selection volume of each object that has one.
+    selections: Vec<Option<Selection>>,
+    facts: Vec<SelectionFacts>,
+    /// The picture of each intersection whose colour is one, in the order of the tables.
+    pictures: Vec<Option<IntersectionPicture>>,
+}
+
+/// A selection or a ghost with everything that its look names.
+struct ObjectPart {
+    object: usize,
+    role: Role,
+    /// The part as a picture of its own.
+    job: Job,
+    /// The grid of its data in the world of `[volume]`.
+    grid: Grid,
+}
+
+impl Objects {
+    /// Loads the objects of a job, of which everything else is loaded. `automatic` is the picture's function as the scene gives it, for
+    /// objects with data of their own: an automatic one is found from these.
+    ///
+    /// # Errors
+    /// Data that cannot be read, and what each part of a picture of its own could be refused for.
+    pub(super) fn load(main: &Job, automatic: Option<&Transfer>) -> Result<Self, Failures> {
+        let (scene, volume) = (&main.scene, &main.volume);
+        let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
+        let mut failures = Vec::new();
+        for (i, object) in scene.objects.iter().enumerate() {
+            own.push(object.volume.as_ref().and_then(|path| match read::read(path, None) {
+                Ok(volume) => Some(Arc::new(volume)),
+                Err(error) => {
+                    let place = scene.given.position(&format!("object[{i}].volume"));
+                    failures.push(Failure::new(error.what(), place, error.remedy()));
+                    None
+                }
+            }));
+        }
+        Failures::check(std::mem::take(&mut failures))?;
+        let data = |object: usize| own[object].as_ref().unwrap_or(volume);
+        // Selections, and what only voxels can tell of them.
+        let (mut selections, mut facts) = (Vec::new(), Vec::new());
+        for (i, object) in scene.objects.iter().enumerate() {
+            let selection = match object.strokes {
+                Some(_) => Some(main.paint(i)?.selection),
+                None => selection(scene, (i, object), data(i), &mut failures),
+            };
+            facts.push(selection_facts(object, selection.as_ref(), data(i), volume.anatomy()));
+            selections.push(selection);
+        }
+        let pictures = scene.intersections.iter().enumerate().map(|(i, table)| {
+            let IntersectionColor::Picture(path) = &table.color else { return None };
+            let failed = |error: drypoint_output::OutputError| {
+                Failure::new(&error, scene.given.position(&format!("intersection[{i}].color")), error.help())
+            };
+            read_intersection_picture(path).map_err(|error| failures.push(failed(error))).ok()
+        });
+        let pictures = pictures.collect();
+        Failures::check(failures)?;
+        // The parts, each as a picture of its own.
+        let mut parts = Vec::new();
+        for (object, role) in scene.parts() {
+            let mut of_part = scene.of_part(object, role);
+            let table = &scene.objects[object];
+            let has_function = table.transfer.is_some() || table.ghost.as_ref().is_some_and(|g| g.transfer.is_some());
+            if table.volume.is_some() && !has_function {
+                of_part.transfer = automatic.cloned();
+            }
+            let data = data(object);
+            let job = Job::with_shared(of_part, data.clone(), RenderTarget::Picture, Some(volume.grid()))?;
+            let grid = Anatomy::between(data.grid(), data.anatomy(), volume.anatomy());
+            parts.push(ObjectPart { object, role, job, grid });
+        }
+        Ok(Self { parts, selections, facts, pictures })
+    }
+
+    /// Adds the objects to the shot of a scene that differs from the job's in its knobs alone.
+    pub(super) fn add_to(
+        &self,
+        shot: Shot,
+        scene: &Scene,
+        main: VolumeFacts<'_>,
+        range: [f64; 2],
+    ) -> Result<Shot, Failure> {
+        if scene.objects.is_empty() || self.parts.is_empty() {
+            return Ok(shot);
+        }
+        let scenes: Vec<(Scene, Plan)> = self.parts.iter().map(|part| part.scene_of(scene)).collect();
+        let facts = self.parts.iter().zip(&scenes).map(|(part, (scene, plan))| PartFacts {
+            scene,
+            plan,
+            function: part.job.function.clone().unwrap_or_else(|| Arc::new(Function::nothing())),
+            grid: &part.grid,
+            is_integer: is_integer(&part.job.volume),
+            range: part.job.scene.volume.range.unwrap_or_else(|| part.job.volume.range()),
+        });
+        let facts: Vec<PartFacts<'_>> = facts.collect();
+        shot.with_objects(scene, main, range, &self.facts, &facts).map_err(|error| shot_failure(&error, scene))
+    }
+
+    /// Returns the data that a shot with the objects names.
+    pub(super) fn inputs(&self, shot: &Shot) -> ObjectInputs<'_> {
+        // A part is a picture without objects.
+        let combination = shot.combination.as_ref().filter(|_| !self.parts.is_empty());
+        let Some(combination) = combination else { return ObjectInputs::default() };
+        ObjectInputs {
+            parts: self.parts.iter().map(|part| part.job.inputs(shot)).collect(),
+            selections: self.selections.iter().map(Option::as_ref).collect(),
+            pictures: combination.intersections.iter().map(|table| self.pictures[table.table].as_ref()).collect(),
+        }
+    }
+}
+
+impl ObjectPart {
+    /// The part's scene with the settings of the picture's, and its plan.
+    fn scene_of(&self, scene: &Scene) -> (Scene, Plan) {
+        let mut of_part = scene.of_part(self.object, self.role);
+        of_part.transfer = self.job.scene.transfer.clone();
+        if scene.has_own_shading(self.object, self.role) {
+            // Its table has been read.
+            of_part.shading = self.job.scene.shading.clone();
+        }
+        let mut plan = plan_for(&of_part, RenderTarget::Picture);
+        plan.settle(&of_part, is_integer(&self.job.volume));
+        (of_part, plan)
+    }
+}
+
+/// The selection volume of an object; none if it is one without.
+fn selection(
+    scene: &Scene,
+    (i, object): (usize, &ObjectTable),
+    data: &Volume,
+    failures: &mut Vec<Failure>,
+) -> Option<Selection> {
+    let at = |key: &str| scene.given.position(&format!("object[{i}].{key}"));
+    let no_room = |no_room, key| Failure::new(format!("the selection needs {no_room}"), at(key), "select less");
+    if let Some(path) = &object.selection {
+        let volume =
+            read::read(path, None).map_err(|error| Failure::new(error.what(), at("selection"), error.remedy()));
+        let selection =
+            volume.and_then(|volume| Selection::from_volume(&volume).map_err(|error| no_room(error, "selection")));
+        return selection.map_err(|failure| failures.push(failure)).ok();
+    }
+    let keys = object.label.as_ref()?;
+    let table = scene.of_part(i, Role::Selection).volume;
+    let labels = SceneLabels::load(&table, data, failures);
+    let volume = labels.volume?;
+    let mut ids = Vec::new();
+    for key in keys {
+        match key {
+            LabelKey::Id(id) => ids.push(*id),
+            LabelKey::Name(name) => match labels.names.id(name) {
+                Some(id) => ids.push(id),
+                None => {
+                    let remedy = super::load::known_label(name, &labels.names);
+                    failures.push(Failure::new(format!("there is no label {name:?}"), at("label"), remedy));
+                }
+            },
+        }
+    }
+    Selection::from_labels(&volume, &ids).map_err(|error| failures.push(no_room(error, "label"))).ok()
+}
+
+/// The grid of an object's memberships in a world of the anatomical directions `world`, and the box of [VS-2].
+fn selection_facts(
+    object: &ObjectTable,
+    selection: Option<&Selection>,
+    data: &Volume,
+    world: Option<Anatomy>,
+) -> SelectionFacts {
+    let of_data = || Anatomy::between(data.grid(), data.anatomy(), world);
+    match (selection, &object.value) {
+        (Some(selection), _) => {
+            let grid = selection.grid_in(world);
+            let index_box = selection.index_box().map(|ends| within(&grid, ends));
+            SelectionFacts { grid, index_box }
+        }
+        (None, Some(pairs)) => {
+            let grid = of_data();
+            let index_box = selected_by_value(data, pairs).map(|ends| within(&grid, ends));
+            SelectionFacts { grid, index_box }
+        }
+        (None, None) => {
+            let grid = of_data();
+            SelectionFacts { index_box: Some(grid.index_box()), grid }
+        }
+    }
+}
+
+/// The first and the last voxel with a membership above 0, grown by one voxel and clipped to the volume; none if there is none.
+fn selected_by_value(data: &Volume, pairs: &[[f64; 2]]) -> Option<[[usize; 3]; 2]> {
+    let [nx, ny, nz] = data.dims();
+    let is_selected = |value: f64| {
+        // Between two pairs the membership is above 0 unless both ends are 0.
+        let after = pairs.partition_point(|pair| pair[0] <= value);
+        let ends = [after.checked_sub(1).map_or(pairs.first(), |before| pairs.get(before)), pairs.get(after)];
+        match ends {
+            [Some(before), Some(next)] if before[0] <= value => before[1] > 0.0 || next[1] > 0.0 && value > before[0],
+            [Some(end), _] => end[1] > 0.0,
+            _ => false,
+        }
+    };
+    let of_slice = |z: usize| {
+        let mut found: Option<[[usize; 3]; 2]> = None;
+        for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
+            let voxel = [x, y, z];
+            let is_masked = data.mask().is_some_and(|mask| mask.voxel(voxel));
+            if !is_masked && is_selected(data.value(voxel)) {
+                found = Some(around(found, [voxel; 2]));
+            }
+        }
+        found
+    };
+    let around_both = |a: Option<[[usize; 3]; 2]>, b: Option<[[usize; 3]; 2]>| match b {
+        Some(b) => Some(around(a, b)),
+        None => a,
+    };
+    let [lo, hi] = (0..nz).into_par_iter().map(of_slice).reduce(|| None, around_both)?;
+    let last = [nx - 1, ny - 1, nz - 1];
+    Some([lo.map(|i| i.saturating_sub(1)), std::array::from_fn(|a| (hi[a] + 1).min(last[a]))])
+}
+
+/// The smallest box around two.
+fn around(a: Option<[[usize; 3]; 2]>, b: [[usize; 3]; 2]) -> [[usize; 3]; 2] {
+    let Some([lo, hi]) = a else { return b };
+    [std::array::from_fn(|i| lo[i].min(b[0][i])), std::array::from_fn(|i| hi[i].max(b[1][i]))]
+}
+
+/// A box of voxels in index space; an axis of one voxel reaches half a voxel each way.
+fn within(grid: &Grid, [lo, hi]: [[usize; 3]; 2]) -> [DVec3; 2] {
+    let ends = grid.index_box();
+    let at = |voxel: [usize; 3]| DVec3::from_array(voxel.map(|i| i as f64)).clamp(ends[0], ends[1]);
+    let is_flat = |axis: usize| grid.dims()[axis] == 1;
+    let corner = |voxel, end: DVec3| {
+        let at: DVec3 = at(voxel);
+        DVec3::from_array(std::array::from_fn(|axis| if is_flat(axis) { end[axis] } else { at[axis] }))
+    };
+    [corner(lo, ends[0]), corner(hi, ends[1])]
+}
