@@ -18,6 +18,10 @@ const FOCUS: (&str, &str) = ("halo", "[{ seed = { focus = { at = [[1, 2, 3]] } }
 const CLIP: (&str, &str) = ("clip", "[{ point = [1, 2, 3], normal = [0, 0, 1] }]");
 const BOX: (&str, &str) = ("clip", "[{ box = [[0, 9], [0, 9], [0, 9]] }]");
 const OBJECT: (&str, &str) = ("object", "[{ cut = \"bounds\" }]");
+const PIXEL: (&str, &str) = ("object", "[{ strokes = [{ pixel = [4, 5] }] }]");
+const DAB: (&str, &str) = ("object", "[{ strokes = [{ at = [4, 5, 6] }] }]");
+const GROWTH: (&str, &str) = ("object", "[{ strokes = [{ grow = [4, 5, 6] }] }]");
+const BASIN: (&str, &str) = ("object", "[{ strokes = [{ watershed = [4, 5, 6] }] }]");
 const OWN: (&str, &str) = ("object", "[{ volume = \"pet.nrrd\" }]");
 const TURNED: (&str, &str) = ("object", "[{ rotate = { angle = 10 } }]");
 const TWO: (&str, &str) = ("object", "[{ name = \"a\" }, { name = \"b\" }]");
@@ -212,6 +216,16 @@ const SAMPLES: &[Sample] = &[
     ("object[0].selection", &[OBJECT], "tumour.nrrd"),
     ("object[0].label", &[OBJECT, ("volume.labels", "l.nrrd")], "[1, 2]"),
     ("object[0].value", &[OBJECT], "[[1, 0], [2, 1]]"),
+    ("object[0].strokes", &[OBJECT], "[{ pixel = [1, 2] }, { grow = [1, 2, 3] }, { watershed = [1, 2, 3] }]"),
+    ("object[0].strokes[0].pixel", &[PIXEL], "[1, 2.5]"),
+    ("object[0].strokes[0].at", &[DAB], "[1, 2, 3]"),
+    ("object[0].strokes[0].grow", &[GROWTH], "[1, 2, 3]"),
+    ("object[0].strokes[0].watershed", &[BASIN], "[1, 2, 3]"),
+    ("object[0].strokes[0].mode", &[BASIN], "subtract"),
+    ("object[0].strokes[0].radius", &[DAB], "3 voxels"),
+    ("object[0].strokes[0].brush", &[PIXEL], "ball"),
+    ("object[0].strokes[0].tolerance", &[GROWTH], "10"),
+    ("object[0].strokes[0].connect", &[GROWTH], "26"),
     ("object[0].move", &[OBJECT], "[0, 0, 40]"),
     ("object[0].scale", &[OBJECT], "[1, 1, -2]"),
     ("object[0].rotate", &[OBJECT], "{ angle = 30 }"),

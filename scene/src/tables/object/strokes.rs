@@ -28,6 +28,25 @@ pub struct PaintStroke {
     pub connect: Connectivity,
 }
 
+/// The target of a stroke of which no key has said it yet.
+const UNSAID: PaintTarget = PaintTarget::At(DVec3::NAN);
+
+impl PaintStroke {
+    fn is_unsaid(&self) -> bool {
+        matches!(self.target, PaintTarget::At(p) if p.is_nan())
+    }
+
+    /// Whether the keys of a brush act.
+    fn has_brush(&self) -> bool {
+        matches!(self.target, PaintTarget::Pixel(_) | PaintTarget::At(_))
+    }
+
+    /// Whether the keys of a region act.
+    fn grows(&self) -> bool {
+        matches!(self.target, PaintTarget::Grow(_)) || self.is_unsaid()
+    }
+}
+
 /// The part of the volume that a stroke paints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PaintTarget {
@@ -147,7 +166,7 @@ static STROKE: Table<PaintStroke> = Table {
         "One stroke of a brush, one grown region or one basin of a watershed. Voxels that the transfer function does not \
          show are not painted.",
         || PaintStroke {
-            target: PaintTarget::At(DVec3::ZERO),
+            target: UNSAID,
             mode: PaintMode::Add,
             radius: Length::Voxels(5.0),
             brush: Brush::Gaussian,
@@ -166,7 +185,7 @@ static STROKE: Table<PaintStroke> = Table {
             /// A point of the world, about which the volume is painted.
             at: key("VS-6", POINT,
                 |s| match s.target {
-                    PaintTarget::At(p) => Some(p.to_array()),
+                    PaintTarget::At(p) if !s.is_unsaid() => Some(p.to_array()),
                     _ => None,
                 },
                 |s, v| s.target = PaintTarget::At(DVec3::from_array(v))).absent("one of `pixel`, `grow` and `watershed`");
@@ -191,13 +210,15 @@ static STROKE: Table<PaintStroke> = Table {
             /// The change of the selection.
             mode: key("VS-6", PaintMode::KIND);
             /// Radius of the brush. With 0 it is one voxel.
-            radius: key("VS-6", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+            radius: key("VS-6", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
+                |s| s.has_brush().then_some(s.radius), |s, v| s.radius = v);
             /// Shape of the brush.
-            brush: key("VS-6", Brush::KIND);
+            brush: key("VS-6", Brush::KIND, |s| s.has_brush().then_some(s.brush), |s, v| s.brush = v);
             /// The largest difference of a value of a grown region from the seed's.
-            tolerance: key("VS-6", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" });
+            tolerance: key("VS-6", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" },
+                |s| s.grows().then_some(s.tolerance), |s, v| s.tolerance = v);
             /// The neighbours of a voxel in a grown region: 6 share a face, 18 a face or an edge, 26 also a corner.
-            connect: key("VS-6", Neighbours);
+            connect: key("VS-6", Neighbours, |s| s.grows().then_some(s.connect), |s, v| s.connect = v);
         } },
     )
 };
