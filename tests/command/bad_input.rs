@@ -172,9 +172,9 @@ error: behind.png is not there
 error: there is no style \"metall\"
   at: scene.toml:10:28, key transfer.nodes[0].style
   try: write \"metal\"; there is bone, brain, cartoon, cartoon-2, chalk, constant, copper, engraving, gall, glass, gut, ink, kidney, liver, lung, metal, muscle, nerve, pencil, porcelain, skin, spleen, tone, vein, vessel, watercolour, wax, xray
-error: [[mesh]] is not built yet
-  at: scene.toml:11:3, key mesh
-  try: remove it: this version cannot draw it, and would not ignore it
+error: plate.ply is not there
+  at: scene.toml:12:1, key mesh[0].file
+  try: write another path; DRYPOINT_DATA lists no folder with it
 ";
     assert_eq!(folder.refused("render scene.toml -o out.png"), expected);
     assert_eq!(folder.refused("plan scene.toml"), expected);

@@ -45,7 +45,7 @@ const FILES: &[(&str, &str, &str)] = &[
     ("default.png", "render --size 48x36", "54bcc8d11c7f9a7a3c45ef7e5eddee754b792c1341201d674a52d5db2f9f40cf"),
     ("styles.exr", "render styles.toml", "7531347b6b7787a75afc922c8a52ba80f1b4b123c8ea7ec057c74f50cfa2e366"),
     ("labels.exr", "render labels.toml", "4488ca684501027ad7773b8834e905b3b3791643a1099bf629282d71e4b290f0"),
-    ("phong.exr", "render phong.toml", "fc2568480b0de89f94b930979d86ac20f7ce26a95f9a02a4c205de40e5f7714a"),
+    ("phong.exr", "render phong.toml", "a08be2efd242851f301ffce9a7bce1f9af17f2375715387fbfa00ab1aaddc948"),
     (
         "phong.gif",
         "render phong.toml --set orbit.frames=3",

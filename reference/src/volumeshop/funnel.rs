@@ -120,7 +120,7 @@ mod tests {
     }
 
     /// A half-plane of constant depth: c̃ is a sum of the Gaussian's taps, and the funnel falls monotonically to z_in, nowhere
-    /// steeper than 2(d − z_in)/(σ√(2π)) a pixel.
+    /// steeper than 2(d − z_in)/(σ√(2π)) a pixel, up to what the Gaussian lacks beyond 4σ.
     #[test]
     fn a_straight_edge_has_the_funnel_of_the_closed_form() {
         let (sigma, d, z_in) = (4.0, 10.0, 2.0);
@@ -136,17 +136,17 @@ mod tests {
         }
         let steepest = 2.0 * (d - z_in) / (sigma * std::f64::consts::TAU.sqrt());
         let cut: Vec<f64> = depths.into_iter().filter(|d| d.is_finite()).collect();
-        assert!(cut.windows(2).all(|pair| pair[1] <= pair[0] && pair[0] - pair[1] <= steepest));
+        assert!(cut.windows(2).all(|pair| pair[1] <= pair[0] && pair[0] - pair[1] <= steepest * (1.0 + 1e-4)));
         assert!(cut.len() > 20 + 6 + 8 && (cut[cut.len() - 1] - z_in).abs() < 1e-3);
     }
 
     #[test]
     fn the_object_itself_is_cut_to_its_own_depth() {
-        let funnel = map([9, 9], 1.0, |x, y| if (x, y) == (4, 4) { 7.0 } else { f64::NEG_INFINITY });
+        let funnel = map([12, 12], 1.0, |x, y| if (x, y) == (4, 4) { 7.0 } else { f64::NEG_INFINITY });
         // The mean depth is 7 everywhere; a deeper ray keeps its own depth.
         assert_eq!(funnel.depth([4, 4], 1.0, 9.0), 9.0);
-        assert!(funnel.cuts([4, 5]) && !funnel.cuts([0, 0]));
-        assert_eq!(funnel.depth([0, 0], 1.0, f64::NEG_INFINITY), f64::NEG_INFINITY);
+        assert!(funnel.cuts([4, 5]) && !funnel.cuts([11, 11]));
+        assert_eq!(funnel.depth([11, 11], 1.0, f64::NEG_INFINITY), f64::NEG_INFINITY);
         let near = funnel.depth([4, 5], 1.0, f64::NEG_INFINITY);
         assert!(near > 1.0 && near <= 7.0, "{near}");
     }

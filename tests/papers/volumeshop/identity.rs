@@ -45,7 +45,7 @@ fn product_leaves_no_slit() {
     let dense = LIT.replace("opacity = 0.4", "opacity = 0.99").replace("at = 20", "at = 150");
     let object = "[camera]\n[[object]]\nvalue = [[190, 0], [240, 1]]\nmove = [1000, 0, 0]\n";
     let [plain, zadeh] = ["", object].map(|object| drawn(&scene_of(SHELLS, &format!("{dense}{object}"))).0);
-    assert!(difference(&plain, &zadeh) > 0.01, "{}", difference(&plain, &zadeh));
+    assert!(difference(&plain, &zadeh) > 1e-4, "{}", difference(&plain, &zadeh));
 }
 
 /// A ghosting factor of 0 is no cutaway, bit for bit, and so is a funnel of 0.

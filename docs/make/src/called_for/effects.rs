@@ -91,6 +91,8 @@ pub(super) const EFFECTS: &[Effect] = &[
         without: &[("shading.model", "lighting-function")],
         with: &[("shading.model", "lighting-function"), ("shading.preset", "gradient")],
         only: &["preprocess.gradients"],
+        // What is more opaque ends rays earlier.
+        others: &["gradients", "samples", "without_normal"],
         ..NOTHING
     },
     Effect {
@@ -533,6 +535,7 @@ pub(super) const EFFECTS: &[Effect] = &[
         with: &[("object", "[{ value = [[110, 0], [130, 1]], move = [8, 0, 0] }]")],
         // Its own samples, and rays that its ghost ends elsewhere.
         more: &["samples"],
+        others: &["rays_skipped"],
         ..NOTHING
     },
     Effect {

@@ -40,7 +40,7 @@ fn a_dab_has_the_brushes_membership_at_every_voxel() {
     let volume = volume(dims, |_| 1);
     let painter = Painter::new(&volume, &|_| true);
     let centre = [9, 8, 10];
-    for (brush, radius) in BRUSHES.into_iter().flat_map(|brush| [0.0, 0.9, 3.7, 9.1, 500.0].map(|r| (brush, r))) {
+    for (brush, radius) in BRUSHES.into_iter().flat_map(|brush| [0.0, 0.93, 3.63, 9.13, 500.0].map(|r| (brush, r))) {
         let mut selection = Selection::nothing(&volume);
         let painted = painter.dab(&mut selection, &dab(&volume, centre, brush, radius, PaintMode::Add)).unwrap();
         let mut covered = 0;
