@@ -49,7 +49,7 @@ const FILES: &[(&str, &str, &str)] = &[
     (
         "phong.gif",
         "render phong.toml --set orbit.frames=3",
-        "7c03179537c7c261cf78d86a6eafed5c93f79d26c5d25faacf795e2ebd474f69",
+        "d8d35e99e088e70b9ae1d4476ce088677116be08714c1a0f5393df1ad897819c",
     ),
     ("surface.png", "render surface.toml", "47900a6245a86baf78ffb631b586d3009df2ca16f46cc1f06f316ecd9f253fac"),
     ("stipples.svg", "points stipples.toml", "0d2de84835cc79f51db6b70057ad763963919d7ab6b59f14142f544c5d910319"),
