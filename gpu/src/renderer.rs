@@ -296,7 +296,7 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
-/// What a shader reads, on the card.
+/// The data that a shader reads, on the card.
 pub(crate) struct BoundData {
     /// Group 1.
     pub(crate) group: wgpu::BindGroup,

@@ -22,7 +22,7 @@ pub struct Painting {
     pub painted: Vec<Painted>,
 }
 
-/// What strokes are painted on: an object's data as a picture of its own.
+/// The ground of strokes: an object's data as a picture of its own.
 struct Canvas<'a> {
     job: &'a Job,
     scene: Scene,

@@ -112,7 +112,7 @@ fn plane_depths(number: Number) -> f64 {
     worst(all)
 }
 
-/// How far off each pixel's Z is, of those that meet the plane well before its end.
+/// The error of each pixel's Z, of those that meet the plane well before its end.
 fn off_the_plane(shot: &Stage, level: f64) -> Vec<f64> {
     let (view, centre) = (shot.view(), shot.volume.grid().centre());
     let z = shot.render().one(LayerKind::Z);

@@ -147,7 +147,7 @@ fn no_line_passes_between_triangles() {
     assert_eq!(lines, 16 * 1280);
 }
 
-/// What the tree leaves out is what no line meets.
+/// Triangles that the tree leaves out are met by no line.
 #[test]
 fn the_tree_finds_what_testing_every_triangle_finds() {
     // Triangles of all sizes, some beside each other and some twice, far from the origin and near it.

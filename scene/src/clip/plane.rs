@@ -48,7 +48,7 @@ impl ClipPlane {
         }
     }
 
-    /// The same plane in the index space of another grid.
+    /// Returns the plane in the index space of another grid.
     pub fn on(&self, grid: &Grid) -> Self {
         let index_offset = self.offset - dot(self.normal, grid.origin());
         Self { index_normal: grid.axes().transpose() * self.normal, index_offset, ..self.clone() }

@@ -104,7 +104,7 @@ impl Given {
         self.keys.iter().map(|(key, place)| (key.as_str(), place))
     }
 
-    /// The same keys, with those of some tables in the place of others: each pair is a table and the place that its keys take.
+    /// Returns the keys with those of some tables in the place of others: each pair is a table and the place that its keys take.
     /// Keys that stood there are left out.
     pub(crate) fn with_tables(&self, tables: &[(String, &str)]) -> Self {
         let is_in = |key: &str, table: &str| {

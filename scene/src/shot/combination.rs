@@ -19,11 +19,11 @@ pub struct Combination {
     pub fuzzy: Fuzzy,
     /// The selections of the objects, in their order.
     pub selections: Vec<SelectionParams>,
-    /// What is drawn of the objects, in their order; of each its selection before its ghost.
+    /// Selections and ghosts, in the order of the objects; a selection stands before its ghost.
     pub parts: Vec<Part>,
     /// Cutaways of the background ([VS-7]).
     pub cutaways: Vec<Cutaway>,
-    /// Where a selection meets something ([VS-4]).
+    /// The looks of places where a selection meets something ([VS-4]).
     pub intersections: Vec<Intersection>,
 }
 
@@ -108,7 +108,7 @@ pub enum IntersectionPaint {
     Picture([[f64; 2]; 2]),
 }
 
-/// What a part's shot depends on.
+/// Facts that a part's shot depends on.
 #[derive(Clone, Debug)]
 pub struct PartFacts<'a> {
     /// The scene of the part ([`Scene::of_part`]).
@@ -125,7 +125,7 @@ pub struct PartFacts<'a> {
     pub range: [f64; 2],
 }
 
-/// What only data can tell of a selection.
+/// Facts of a selection that only data can tell.
 #[derive(Clone, Debug)]
 pub struct SelectionFacts {
     /// The grid of its memberships in the picture's world.

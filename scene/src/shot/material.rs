@@ -195,7 +195,7 @@ impl Illumination {
         Self { lighting, silhouette: offset(surface.silhouette), view_opacity: 0.0 }
     }
 
-    /// Of meshes: Blinn–Phong, with the light and the constants of `[shading]` or their defaults.
+    /// The light on meshes: Blinn–Phong, with the constants of `[shading]` or their defaults.
     pub(super) fn of_mesh(scene: &Scene, view: &View) -> Self {
         let shading = scene.shading.clone().unwrap_or_default();
         let light = shading.light.unwrap_or(scene.light);

@@ -24,7 +24,7 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
     background: Vec<[i64; 2]>,
     /// The samples in the background's box.
     inside: [i64; 2],
-    /// Of each cutaway, the first sample that is not cut.
+    /// The first sample that each cutaway leaves.
     cut_ends: Vec<i64>,
     /// Working memory: what was found of each part at a sample.
     found: Vec<Option<FoundPart<R>>>,

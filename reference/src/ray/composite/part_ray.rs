@@ -24,7 +24,7 @@ pub(super) struct PartRay<'p, 'v, R: Real> {
     pub(super) range: [i64; 2],
 }
 
-/// What was found of a part at a sample.
+/// A part's set at a sample.
 #[derive(Clone, Copy)]
 pub(super) struct FoundPart<R> {
     pub(super) sample: Sample<R>,

@@ -20,7 +20,7 @@ const WAITING: u64 = size_of::<(u64, u64, usize)>() as u64;
 
 /// The basin of each voxel, x fastest; 0 where no flood arrives.
 ///
-/// Of the voxels at the water's edge the lowest is flooded next, and of equally low ones that which the water reached first.
+/// The lowest of the voxels at the water's edge is flooded next, and of equally low ones that which the water reached first.
 /// A voxel that lies below the water is as high as the water. It belongs to the basin from which it was reached first. Water
 /// goes through faces and through voxels that let it pass. `relief` is asked once about each of them.
 ///

@@ -78,7 +78,7 @@ impl From<NoRoom> for PaintError {
     }
 }
 
-/// What paints selections of a volume.
+/// The painter of selections of a volume.
 pub struct Painter<'a> {
     volume: &'a Volume,
     shown: ShownValues<'a>,

@@ -35,7 +35,7 @@ pub enum MeshReason {
 }
 
 impl MeshError {
-    /// What to do.
+    /// The remedy.
     pub fn remedy(&self) -> &'static str {
         match self.reason {
             MeshReason::Unreadable(_) => "check the path, and that the file can be read",

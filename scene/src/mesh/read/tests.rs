@@ -11,7 +11,7 @@ fn ply() -> String {
     format!("{header}0 0 0 9\n+5.0E-1 0 -0 9\n0.5 1.25 0 9\n0 1 -3 9\n4 0 1 2 3\n3 0 2 3\n")
 }
 
-/// The same in bytes of either order.
+/// The square as binary PLY, in either byte order.
 fn binary_ply(big: bool) -> Vec<u8> {
     let format = if big { "binary_big_endian" } else { "binary_little_endian" };
     let mut bytes = HEADER.replace("FORMAT", format).replace("LIST", "ushort").into_bytes();
