@@ -7,15 +7,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::Value;
 
 /// Keys that the generator does not draw, each with why: a key with all below it.
-const NOT_DRAWN: [(&str, &str); 13] = [
+const NOT_DRAWN: [(&str, &str); 18] = [
     ("drypoint", "it has one value"),
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
     ("picture.height", "another word for size, which is drawn"),
     ("halo", "planes.rs adds halos to drawn scenes"),
     ("hatching", "marks/ draws every key of it"),
+    ("object", "tests of the paper draw objects"),
+    ("combine", "tests of the paper draw objects"),
+    ("intersection", "tests of the paper draw objects"),
+    ("mesh", "it names a file: hard cases draw meshes"),
     ("outlines", "marks/ draws every key of them"),
     ("stipples", "marks/ draws every key of them"),
+    ("shading.table", "it names a file: presets are drawn"),
     ("styles.*", "it names a file: styles are handed over decoded, themes are drawn"),
     ("volume.box", "voxels are handed over: subset.rs draws it"),
     ("volume.parts", "voxels are handed over: parts.rs draws every key of it"),

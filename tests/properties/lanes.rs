@@ -66,7 +66,7 @@ fn narrow() -> bool {
 #[test]
 fn lanes_show_nowhere() {
     let (mut in_lanes, mut shaded, mut ended, mut along_rays) = (0, 0, 0, 0);
-    for seed in 5000..6500 {
+    for seed in 5000..7200 {
         let shot = trilinear(seed);
         if shot.scene.transfer.as_ref().is_none_or(|t| t.kind != TransferKind::Regular) {
             continue;

@@ -225,7 +225,7 @@ fn a_picked_place_has_the_label_of_its_voxel() {
 fn picks_agree_with_the_layers() {
     let (mut seen, mut firsts, mut halves, mut surfaces, mut faint) = (0, 0, 0, 0, 0);
     let mut kinds = BTreeMap::new();
-    for seed in 9000..9300 {
+    for seed in 9000..9350 {
         let layers = [LayerKind::Depth, LayerKind::First, LayerKind::FirstNormal];
         let stage = resized(&scene(seed), [9, 7]).layers(&layers);
         let shown = stage.render();
