@@ -134,9 +134,10 @@ mod tests {
             let expected = if c > LEAST { z_in + (2.0 * c).min(1.0) * (d - z_in) } else { f64::NEG_INFINITY };
             assert!(*got == expected || (got - expected).abs() < 1e-12, "{x}: {got} {expected}");
         }
+        // A mean of equal depths is rounded.
         let steepest = 2.0 * (d - z_in) / (sigma * std::f64::consts::TAU.sqrt());
         let cut: Vec<f64> = depths.into_iter().filter(|d| d.is_finite()).collect();
-        assert!(cut.windows(2).all(|pair| pair[1] <= pair[0] && pair[0] - pair[1] <= steepest * (1.0 + 1e-4)));
+        assert!(cut.windows(2).all(|pair| pair[1] <= pair[0] + 1e-13 && pair[0] - pair[1] <= steepest * (1.0 + 1e-4)));
         assert!(cut.len() > 20 + 6 + 8 && (cut[cut.len() - 1] - z_in).abs() < 1e-3);
     }
 
@@ -148,7 +149,7 @@ mod tests {
         assert!(funnel.cuts([4, 5]) && !funnel.cuts([11, 11]));
         assert_eq!(funnel.depth([11, 11], 1.0, f64::NEG_INFINITY), f64::NEG_INFINITY);
         let near = funnel.depth([4, 5], 1.0, f64::NEG_INFINITY);
-        assert!(near > 1.0 && near <= 7.0, "{near}");
+        assert!(near > 1.0 && near <= 7.0 + 1e-14, "{near}");
     }
 
     #[test]
