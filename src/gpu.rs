@@ -5,7 +5,7 @@ use crate::job::{Job, KnobVariant};
 use crate::stippling::PointTest;
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
 pub use drypoint_gpu::{HiddenPoints, Hiding, Volume};
-use drypoint_gpu::{Inputs, Renderer};
+use drypoint_gpu::{Inputs, ObjectInputs, PartInputs, Renderer};
 use drypoint_reference::ray::lattice::samples_in;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
@@ -14,6 +14,7 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::Shot;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A job whose volume lies on a graphics card.
@@ -21,8 +22,12 @@ pub struct GpuJob<'a> {
     job: &'a Job,
     gpu: &'a Gpu,
     shot: Shot,
-    measured: Measured,
-    volume: Volume,
+    /// The facts of the volume, then of those of the parts of objects.
+    measured: Vec<Measured>,
+    /// The volume, then those that objects have of their own.
+    volumes: Vec<Volume>,
+    /// For each entry of `measured` the place of its volume.
+    places: Vec<usize>,
     /// Whether frames can have lines inside the volume.
     has_lines: bool,
 }
@@ -52,12 +57,34 @@ impl<'a> GpuJob<'a> {
         job: &'a Job,
         gpu: &'a Gpu,
         shot: Shot,
-        measured: Measured,
+        measured: Vec<Measured>,
         plan: &Plan,
         precision: Precision,
     ) -> Result<Self, Failure> {
-        let volume = Volume::new(gpu, &measured, precision).map_err(|error| failure(&error, job))?;
-        Ok(Self { job, gpu, shot, measured, volume, has_lines: plan.has_pass(Pass::MergedStrokes) })
+        let (mut volumes, mut places) = (Vec::new(), Vec::<usize>::new());
+        for (i, own) in measured.iter().enumerate() {
+            // Objects of one volume share its numbers.
+            let same = measured[..i].iter().position(|other| Arc::ptr_eq(&other.numbers, &own.numbers));
+            places.push(same.map_or(volumes.len(), |same| places[same]));
+            if same.is_none() {
+                volumes.push(Volume::new(gpu, own, precision).map_err(|error| failure(&error, job))?);
+            }
+        }
+        Ok(Self { job, gpu, shot, measured, volumes, places, has_lines: plan.has_pass(Pass::MergedStrokes) })
+    }
+
+    /// The data that the job's shot names, without its objects.
+    fn inputs<'j>(&'j self, job: &'j Job, measured: &'j Measured) -> Inputs<'j> {
+        Inputs {
+            volume: &job.volume,
+            measured,
+            labels: job.labels.as_ref(),
+            further: job.further.each_ref().map(Option::as_ref),
+            styles: &job.styles,
+            background: job.backdrop(&self.shot),
+            has_lines: false,
+            objects: ObjectInputs::default(),
+        }
     }
 
     /// Returns a renderer of the job's picture.
@@ -73,16 +100,20 @@ impl<'a> GpuJob<'a> {
     /// # Errors
     /// Same errors as [`GpuJob::renderer`].
     pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<Renderer<'a>, Failure> {
+        let [own, of_parts @ ..] = &*self.measured else { return Err(failure(&GpuError::Material, self.job)) };
+        let objects = &self.job.objects;
+        let parts = objects.jobs().zip(of_parts).zip(&self.places[1..]);
+        let parts = parts.map(|((job, measured), &place)| PartInputs { inputs: self.inputs(job, measured), place });
         let inputs = Inputs {
-            volume: &self.job.volume,
-            measured: &self.measured,
-            labels: self.job.labels.as_ref(),
-            further: self.job.further.each_ref().map(Option::as_ref),
-            styles: &self.job.styles,
-            background: self.job.backdrop(&self.shot),
             has_lines: self.has_lines,
+            objects: ObjectInputs {
+                parts: parts.collect(),
+                selections: objects.selections(),
+                pictures: objects.pictures(&self.shot),
+            },
+            ..self.inputs(self.job, own)
         };
-        let renderer = Renderer::edited(self.gpu, &self.volume, &self.shot, &inputs, edit);
+        let renderer = Renderer::edited(self.gpu, &self.volumes, &self.shot, &inputs, edit);
         renderer.map_err(|error| failure(&error, self.job))
     }
 
@@ -140,7 +171,7 @@ impl<'a> GpuFrames<'a> {
             shown: None,
             samples,
             rays_across: shot.rays_across,
-            bytes: on_gpu.volume.bytes(),
+            bytes: on_gpu.volumes.iter().map(Volume::bytes).sum(),
         })
     }
 

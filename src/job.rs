@@ -92,7 +92,7 @@ pub struct Job {
     meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
-    objects: Objects,
+    pub(crate) objects: Objects,
 }
 
 /// The part of a scene to draw.

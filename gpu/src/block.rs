@@ -53,6 +53,16 @@ impl Block {
         other.fields.iter().for_each(|(name, value)| self.set(name, *value));
     }
 
+    /// The names of the numbers.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.fields.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Adds the numbers of another block, whose names get a suffix.
+    pub(crate) fn append(&mut self, other: &Self, suffix: &str) {
+        self.fields.extend(other.fields.iter().map(|(name, value)| (format!("{name}{suffix}"), *value)));
+    }
+
     /// Sets a number that is there.
     pub(crate) fn set(&mut self, name: &str, value: f64) {
         for field in self.fields.iter_mut().filter(|field| field.0 == name) {

@@ -1,7 +1,10 @@
 //! The shader of a shot: which modules it is put together from, and what they read.
 
+pub(crate) mod objects;
+
 use crate::block::Block;
 use crate::field::Scales;
+use crate::place::Place;
 use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
@@ -11,7 +14,6 @@ use crate::{
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
-use drypoint_scene::space::Grid;
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -30,21 +32,36 @@ pub(crate) fn shader(
     precision: Precision,
     interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
-    let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
-    if shot.combination.is_some() {
-        return Err(GpuError::Missing { what: "objects", key: "object" });
+    if shot.combination.is_some() && !shot.halos.list.is_empty() {
+        return Err(GpuError::Missing { what: "halos beside objects", key: "halo" });
     }
     if !shot.meshes.is_empty() {
         return Err(GpuError::Missing { what: "meshes", key: "mesh" });
     }
+    let place = Place::own(shot, inputs.volume.grid());
+    let (mut shader, scales) = of_volume((shot, layers), inputs, &place, precision, interpolation)?;
+    objects::add(&mut shader, shot, inputs, &scales, precision)?;
+    Ok((shader, scales))
+}
+
+/// The shader of a shot without its objects, for a volume at a place.
+fn of_volume(
+    (shot, layers): (&Shot, &[LayerKind]),
+    inputs: &Inputs<'_>,
+    place: &Place,
+    precision: Precision,
+    interpolation: Interpolation,
+) -> Result<(Shader, Scales), GpuError> {
+    // The grid of the data is not that of the place.
+    let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
     // The field and its rays.
     field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);
-    ray::add_lattice(&mut shader, shot, grid)?;
+    ray::add_lattice(&mut shader, shot, place)?;
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     ray::add_cast(&mut shader, shot, inputs.has_lines);
@@ -75,6 +92,7 @@ pub(crate) fn shader(
             measured,
             &scales,
             no_normal(precision),
+            place.moved,
         );
         ray::add_gradient(&mut shader, measured, &scales);
     }
@@ -103,7 +121,7 @@ pub(crate) fn shader(
         }
         (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles.len() => {
             let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
-            style_transfer_functions::add(&mut shader, shot, params, &nodes.color, grid.voxel(), between);
+            style_transfer_functions::add(&mut shader, shot, params, &nodes.color, place.voxel, between);
             with_levels = params.level_of_detail.is_some();
         }
         _ => return Err(GpuError::Material),
@@ -135,11 +153,11 @@ pub(crate) fn shader(
     Ok((shader, scales))
 }
 
-/// The numbers of a shader that depend on the camera.
-pub(crate) fn camera(shot: &Shot, grid: &Grid) -> Result<Block, GpuError> {
+/// The numbers of a shader that depend on the camera, of a shot for a volume at a place.
+pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
     let [object] = &shot.objects;
     let mut block = Block::default();
-    ray::add_view(&mut block, shot, grid)?;
+    ray::add_view(&mut block, shot, place)?;
     let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
     let of_surface = shot.surface.as_ref().and_then(|surface| light_of(&surface.lit));
     for (of, light) in [(LitColors::Samples, of_samples), (LitColors::Surface, of_surface)] {

@@ -3,8 +3,10 @@
 use crate::buffers::{buffer, list_entry, read};
 use crate::canvas::Canvas;
 use crate::clock::Clock;
+use crate::compose::objects::PlacesOfObjects;
 use crate::field::Scales;
 use crate::picture_buffers::PictureBuffers;
+use crate::place::Place;
 use crate::ray::layers::in_picture_units;
 use crate::ray::lines::LinesOnRays;
 use crate::ray::passes::RayPasses;
@@ -14,11 +16,13 @@ use crate::volumetric_halos::planes::HaloPlanes;
 use crate::{Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::fragments::Fragments;
+use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
+use drypoint_scene::volume::Selection;
 use drypoint_scene::volume::labels::LabelVolume;
 use std::ops::Range;
 
@@ -26,7 +30,7 @@ use std::ops::Range;
 const UNFINISHED: f64 = -1.5e30;
 
 /// The data that a shot names, beside the volume's numbers.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Inputs<'a> {
     /// The volume: its grid and its mask.
     pub volume: &'a drypoint_scene::volume::Volume,
@@ -42,6 +46,28 @@ pub struct Inputs<'a> {
     pub background: Backdrop<'a>,
     /// Whether frames can have lines inside the volume ([HATCH-14] d).
     pub has_lines: bool,
+    /// What the shot's objects name ([VS-2]).
+    pub objects: ObjectInputs<'a>,
+}
+
+/// The data that the objects of a shot name, each list in the shot's order.
+#[derive(Clone, Debug, Default)]
+pub struct ObjectInputs<'a> {
+    /// Those of selections and ghosts.
+    pub parts: Vec<PartInputs<'a>>,
+    /// The selection volumes; none where the selection is another one.
+    pub selections: Vec<Option<&'a Selection>>,
+    /// The pictures of intersections whose colour is one.
+    pub pictures: Vec<Option<&'a IntersectionPicture>>,
+}
+
+/// The data that a selection or a ghost names.
+#[derive(Clone, Debug)]
+pub struct PartInputs<'a> {
+    /// Those of the part as a picture of its own.
+    pub inputs: Inputs<'a>,
+    /// The place of its volume among those that are uploaded.
+    pub place: usize,
 }
 
 /// The order in which rays are drawn.
@@ -66,6 +92,8 @@ pub struct Renderer<'g> {
     clock: Option<Clock>,
     /// Lines inside the volume; none where no frame can have any.
     lines: Option<LinesOnRays>,
+    /// Where the shot's objects are drawn.
+    objects: PlacesOfObjects,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -74,12 +102,12 @@ pub struct Renderer<'g> {
 }
 
 impl<'g> Renderer<'g> {
-    /// Prepares a shot for a volume that is already uploaded.
+    /// Prepares a shot for volumes that are already uploaded: the picture's, and those that objects have of their own.
     ///
     /// # Errors
     /// An effect without a shader, data that do not fit, a driver that refuses.
-    pub fn new(gpu: &'g Gpu, volume: &Volume, shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
-        Self::edited(gpu, volume, shot, inputs, &|text| text)
+    pub fn new(gpu: &'g Gpu, volumes: &[Volume], shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
+        Self::edited(gpu, volumes, shot, inputs, &|text| text)
     }
 
     /// Prepares a shot with an edited shader, for tests of whether a comparison notices a fault.
@@ -88,17 +116,17 @@ impl<'g> Renderer<'g> {
     /// See [`Renderer::new`].
     pub fn edited(
         gpu: &'g Gpu,
-        volume: &Volume,
+        volumes: &[Volume],
         shot: &Shot,
         inputs: &Inputs<'_>,
         edit: &dyn Fn(String) -> String,
     ) -> Result<Self, GpuError> {
-        let precision = volume.precision;
+        let precision = volumes.first().ok_or(GpuError::Material)?.precision;
         let layers = drawn_layers(shot);
         let (shader, scales) = compose::shader(shot, &layers, inputs, precision, gpu.interpolation())?;
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
-        let data = bind_data(gpu, volume, &shader, &data_layout, precision)?;
+        let data = bind_data(gpu, volumes, &shader, &data_layout, precision)?;
         let grid = inputs.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let rays = if shot.halos.list.is_empty() {
@@ -129,6 +157,7 @@ impl<'g> Renderer<'g> {
             presentation: None,
             clock: Clock::new(gpu)?,
             lines,
+            objects: PlacesOfObjects::new(shot, inputs)?,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
@@ -140,8 +169,10 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
-        self.shader.block.update(&compose::camera(shot, grid)?);
-        if let (Some(table), Some(cells)) = (&self.data.lighting, volumeshop::lighting_cells(shot)) {
+        let place = Place::own(shot, grid);
+        self.shader.block.update(&compose::camera(shot, &place)?);
+        self.shader.block.update(&compose::objects::camera(shot, &self.objects, &place)?);
+        for (table, cells) in self.data.lighting.iter().zip(volumeshop::lighting_cells(shot)) {
             self.gpu.queue.write_buffer(table, 0, &self.precision.bytes(&cells));
         }
         if let Some(lines) = &mut self.lines {
@@ -281,13 +312,13 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     let filters = shader.data.iter().any(|(_, _, data)| *data == Data::Sampler);
     let entry = |(binding, _, data): &(u32, &'static str, Data)| {
         let ty = match data {
-            Data::Numbers | Data::Voxels | Data::Smoothed => wgpu::BindingType::Texture {
+            Data::Numbers(_) | Data::Voxels(_) | Data::Smoothed(_) => wgpu::BindingType::Texture {
                 sample_type: wgpu::TextureSampleType::Float { filterable: filters },
                 view_dimension: wgpu::TextureViewDimension::D3,
                 multisampled: false,
             },
             Data::Sampler => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering),
-            Data::Reals(_) | Data::Words(_) | Data::Texels(_) => return list_entry(*binding, true),
+            Data::Reals(_) | Data::Lighting(_) | Data::Words(_) | Data::Texels(_) => return list_entry(*binding, true),
         };
         wgpu::BindGroupLayoutEntry { binding: *binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None }
     };
@@ -300,14 +331,14 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
 pub(crate) struct BoundData {
     /// Group 1.
     pub(crate) group: wgpu::BindGroup,
-    /// The cells of the lighting table; none: the shader reads none.
-    lighting: Option<wgpu::Buffer>,
+    /// The cells of the lighting tables that the shader reads.
+    lighting: Vec<wgpu::Buffer>,
 }
 
 /// Uploads what a shader reads.
 pub(crate) fn bind_data(
     gpu: &Gpu,
-    volume: &Volume,
+    volumes: &[Volume],
     shader: &Shader,
     layout: &wgpu::BindGroupLayout,
     precision: Precision,
@@ -317,14 +348,21 @@ pub(crate) fn bind_data(
         Sampler(wgpu::Sampler),
         List(wgpu::Buffer),
     }
-    let mut resources = Vec::new();
+    let volume = |place: usize| volumes.get(place).ok_or(GpuError::Material);
+    let (mut resources, mut lighting) = (Vec::new(), Vec::new());
     for (binding, what, data) in &shader.data {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let list = |bytes: &[u8]| buffer(gpu, what, bytes, usage).map(Resource::List);
         let resource = match data {
-            Data::Numbers => Resource::Texture(&volume.numbers),
-            Data::Voxels => Resource::Texture(volume.voxels.as_ref().unwrap_or(&volume.numbers)),
-            Data::Smoothed => Resource::Texture(volume.smoothed.as_ref().unwrap_or(&volume.numbers)),
+            Data::Numbers(place) => Resource::Texture(&volume(*place)?.numbers),
+            Data::Voxels(place) => {
+                let volume = volume(*place)?;
+                Resource::Texture(volume.voxels.as_ref().unwrap_or(&volume.numbers))
+            }
+            Data::Smoothed(place) => {
+                let volume = volume(*place)?;
+                Resource::Texture(volume.smoothed.as_ref().unwrap_or(&volume.numbers))
+            }
             Data::Sampler => Resource::Sampler(gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(what),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -332,6 +370,11 @@ pub(crate) fn bind_data(
                 ..Default::default()
             })),
             Data::Reals(values) => list(&precision.bytes(values))?,
+            Data::Lighting(cells) => {
+                let table = list(&precision.bytes(cells))?;
+                lighting.extend(if let Resource::List(table) = &table { Some(table.clone()) } else { None });
+                table
+            }
             Data::Words(words) => list(bytemuck::cast_slice(words))?,
             Data::Texels(texels) => list(bytemuck::cast_slice(texels))?,
         };
@@ -349,9 +392,5 @@ pub(crate) fn bind_data(
     let group = gpu.attempt("the scene", || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("data"), layout, entries: &entries })
     })?;
-    let lighting = resources.into_iter().find_map(|(binding, resource)| match resource {
-        Resource::List(buffer) if binding == volumeshop::LIGHTING => Some(buffer),
-        _ => None,
-    });
     Ok(BoundData { group, lighting })
 }

@@ -1,5 +1,8 @@
 //! A shader put together from modules.
 
+mod attach;
+mod declarations;
+
 use crate::block::Block;
 use crate::{Interpolation, Precision, volumetric_halos};
 use std::fmt::Write;
@@ -23,12 +26,14 @@ pub(crate) use module;
 /// Data that a binding of group 1 reads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Data {
-    /// The numbers that the volume's kernel weighs.
-    Numbers,
-    /// The volume's voxels.
-    Voxels,
-    /// The smoothed coefficients of the volume.
-    Smoothed,
+    /// The numbers that a volume's kernel weighs, by the place of the volume.
+    Numbers(usize),
+    /// A volume's voxels.
+    Voxels(usize),
+    /// The smoothed coefficients of a volume.
+    Smoothed(usize),
+    /// The cells of a lighting table, which for light from the world depend on the camera.
+    Lighting(Vec<f64>),
     /// The texture unit's interpolation.
     Sampler,
     /// Numbers.
@@ -37,6 +42,13 @@ pub(crate) enum Data {
     Words(Vec<u32>),
     /// Texels in f32.
     Texels(Vec<[f32; 4]>),
+}
+
+impl Data {
+    /// Whether the data are those of every frame.
+    fn is_constant(&self) -> bool {
+        !matches!(self, Self::Lighting(_))
+    }
 }
 
 /// Values of an `override` of the shader.
@@ -56,8 +68,12 @@ pub(crate) struct Stages {
     pub(crate) begin_ray: Vec<&'static str>,
     /// From the run of samples in the box to those that are left.
     pub(crate) samples_left: Vec<&'static str>,
+    /// From the run of all samples, among objects, to those that are left.
+    pub(crate) all_left: Vec<&'static str>,
     /// From a sample to the next plane that can show something.
     pub(crate) next_plane: Vec<&'static str>,
+    /// From a sample to the next plane that is no masked one, among objects.
+    pub(crate) next_number: Vec<&'static str>,
     /// When a sample's value is evaluated.
     pub(crate) visited: Vec<&'static str>,
     /// From the place of a value to that between nodes.
@@ -70,8 +86,12 @@ pub(crate) struct Stages {
     pub(crate) measured: Vec<&'static str>,
     /// Expressions for the coordinates of a function over two quantities: the first along a row, the second from row to row.
     pub(crate) coordinates: Vec<String>,
-    /// The colour and opacity of a visible sample.
-    pub(crate) shown: Vec<&'static str>,
+    /// The colour and opacity of a visible sample before light falls on them.
+    pub(crate) unlit: Vec<&'static str>,
+    /// The light of a visible sample.
+    pub(crate) lit: Vec<&'static str>,
+    /// The cut that a visible sample lies on.
+    pub(crate) cut: Vec<&'static str>,
     /// The number of steps that a sample stands for.
     pub(crate) steps: Vec<&'static str>,
     /// From a cell to the side of the block of cells without an iso-surface; 0: the cell is searched.
@@ -89,6 +109,8 @@ pub(crate) struct Stages {
     pub(crate) channels: Vec<Channel>,
     /// Stages of halos; none: the scene has no halo.
     pub(crate) halos: Option<volumetric_halos::Stages>,
+    /// Functions of objects; none: the scene has no object, and is no part of one.
+    pub(crate) objects: Option<String>,
 }
 
 /// A channel of a pixel.
@@ -109,6 +131,8 @@ pub(crate) struct Shader {
     /// Bindings of group 1.
     pub(crate) data: Vec<(u32, &'static str, Data)>,
     pub(crate) stages: Stages,
+    /// Texts of attached shaders.
+    pub(crate) attached: Vec<String>,
 }
 
 impl Shader {
@@ -135,6 +159,8 @@ impl Shader {
     pub(crate) fn text(&self, precision: Precision) -> String {
         let mut text = self.modules_text(precision) + &self.stages.wgsl();
         text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
+        text.extend(self.attached.iter().map(String::as_str));
+        text.extend(self.stages.objects.as_deref());
         text
     }
 
@@ -214,9 +240,22 @@ impl Stages {
             let head = format!("{name}(ray: Ray, sample: Sample, a: Attributes) -> Coordinate");
             function(&head, &[], Some(expression));
         }
-        let lines =
-            with("var shaded = Shaded();", calls(&self.shown, &|s| format!("shaded = {s}(ray, sample, a, shaded);")));
+        let shade = |stages: &[&str]| calls(stages, &|s| format!("shaded = {s}(ray, sample, a, shaded);"));
+        let lines = [&self.unlit, &self.lit, &self.cut].into_iter().flat_map(|stages| shade(stages)).collect();
+        let lines = with("var shaded = Shaded();", lines);
         function("shown(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
+        if self.objects.is_some() {
+            let lines = with("var shaded = Shaded();", shade(&self.unlit));
+            function("unlit(ray: Ray, sample: Sample, a: Attributes) -> Shaded", &lines, Some("shaded"));
+            let lines = with("var shaded = plain;", shade(&self.lit));
+            let head = "lit(ray: Ray, sample: Sample, a: Attributes, plain: Shaded) -> Shaded";
+            function(head, &lines, Some("shaded"));
+            let numbers = calls(&self.next_number, &|s| format!("next = max(next, {s}(ray, sample));"));
+            let lines = with("var next = sample.k;", numbers);
+            function("next_number(ray: Ray, sample: Sample) -> i32", &lines, Some("next"));
+            let lines = with("var left = run;", calls(&self.all_left, &|s| format!("left = {s}(ray, left);")));
+            function("all_left(ray: Ray, run: vec2<i32>) -> vec2<i32>", &lines, Some("left"));
+        }
         let lines = with("var steps = real(1.0);", calls(&self.steps, &|s| format!("steps = {s}(k, steps);")));
         function("steps_of(k: i32) -> real", &lines, Some("steps"));
         let lines =

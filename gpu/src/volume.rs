@@ -3,6 +3,7 @@
 use crate::{Gpu, GpuError, Precision};
 use drypoint_scene::math::{exponent, scale_by_power_of_two};
 use drypoint_scene::measured::{Measured, PaddedNumbers};
+use std::sync::Arc;
 
 /// A volume as textures of numbers, uploaded once for any number of renderers.
 pub struct Volume {
@@ -30,7 +31,7 @@ impl Volume {
         let e = scale_exponent(measured);
         let lists = [Some(&measured.numbers), measured.voxels.as_ref(), measured.smoothed.as_ref()];
         let numbers = lists.into_iter().flatten().map(|numbers| numbers.data.len() as u64).sum::<u64>();
-        let texture = |numbers: &PaddedNumbers| upload(gpu, numbers, e, precision);
+        let texture = |numbers: &Arc<PaddedNumbers>| upload(gpu, numbers, e, precision);
         Ok(Self {
             numbers: texture(&measured.numbers)?,
             voxels: measured.voxels.as_ref().map(texture).transpose()?,

@@ -1,6 +1,7 @@
 //! Facts that only voxels can tell, measured once and handed to every renderer that did not measure it itself.
 
 use crate::volume::Bricks;
+use std::sync::Arc;
 
 /// Numbers on a volume's grid, x fastest, continued beyond each border.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,15 +22,15 @@ impl PaddedNumbers {
 }
 
 /// The measured facts of a volume for one shot. Numbers are values minus [`base`](Self::base), so that a constant volume
-/// has numbers 0.
+/// has numbers 0. Objects of one volume share its numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// The numbers that the shot's kernel weighs: voxels, or the coefficients of a spline ([REC-1]).
-    pub numbers: PaddedNumbers,
+    pub numbers: Arc<PaddedNumbers>,
     /// The voxels, where an estimator reads them and they are not the numbers.
-    pub voxels: Option<PaddedNumbers>,
+    pub voxels: Option<Arc<PaddedNumbers>>,
     /// Coefficients of the smoothed spline that `gaussian` Hessians are of ([REC-3]).
-    pub smoothed: Option<PaddedNumbers>,
+    pub smoothed: Option<Arc<PaddedNumbers>>,
     /// Weights of the `regression` gradient: for each of the 64 cases of neighbours along x + 4 · those along y + 16 · those
     /// along z, and each index axis, those of the 3³ voxels around one, x fastest ([STIP-1]). Neighbours along an axis: 1 for
     /// one before, plus 2 for one after. None where no gradient reads them.

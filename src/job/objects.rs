@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// The objects of a job.
 #[derive(Default)]
-pub(super) struct Objects {
+pub(crate) struct Objects {
     /// Selections and ghosts, in the order of [`Scene::parts`].
     parts: Vec<ObjectPart>,
     /// The selection volume of each object that has one.
@@ -122,14 +122,29 @@ impl Objects {
 
     /// Returns the data that a shot with the objects names.
     pub(super) fn inputs(&self, shot: &Shot) -> ObjectInputs<'_> {
-        // A part is a picture without objects.
-        let combination = shot.combination.as_ref().filter(|_| !self.parts.is_empty());
-        let Some(combination) = combination else { return ObjectInputs::default() };
         ObjectInputs {
-            parts: self.parts.iter().map(|part| part.job.inputs(shot)).collect(),
-            selections: self.selections.iter().map(Option::as_ref).collect(),
-            pictures: combination.intersections.iter().map(|table| self.pictures[table.table].as_ref()).collect(),
+            // A part is a picture without objects.
+            parts: self.jobs().map(|job| job.inputs(shot)).collect(),
+            selections: self.selections(),
+            pictures: self.pictures(shot),
         }
+    }
+
+    /// Selections and ghosts as pictures of their own, in the order of [`Scene::parts`].
+    pub(crate) fn jobs(&self) -> impl Iterator<Item = &Job> {
+        self.parts.iter().map(|part| &part.job)
+    }
+
+    /// The selection volume of each object that has one.
+    pub(crate) fn selections(&self) -> Vec<Option<&Selection>> {
+        self.selections.iter().map(Option::as_ref).collect()
+    }
+
+    /// The picture of each intersection of a shot whose colour is one.
+    pub(crate) fn pictures(&self, shot: &Shot) -> Vec<Option<&IntersectionPicture>> {
+        let combination = shot.combination.as_ref().filter(|_| !self.parts.is_empty());
+        let tables = combination.into_iter().flat_map(|combination| &combination.intersections);
+        tables.map(|table| self.pictures[table.table].as_ref()).collect()
     }
 }
 

@@ -7,6 +7,7 @@ mod field;
 mod formulas;
 mod halos;
 mod lines;
+mod objects;
 mod points;
 #[path = "sabotage/bounds.rs"]
 mod sabotage_of_bounds;

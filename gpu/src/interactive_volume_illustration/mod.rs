@@ -56,5 +56,5 @@ pub(crate) fn add_silhouette(shader: &mut Shader, offset: f64, of: LitColors) {
 pub(crate) fn add_view_opacity(shader: &mut Shader, strength: f64) {
     shader.add(&[module!("view_opacity")]);
     shader.block.number("view_opacity", strength);
-    shader.stages.shown.push("grow_opacity");
+    shader.stages.lit.push("grow_opacity");
 }

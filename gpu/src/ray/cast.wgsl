@@ -1,4 +1,4 @@
-// A ray, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
+// The samples of a ray, front to back ([VAL-3], [VAL-4], [RAY-2]).
 
 // The first channel of a pixel of which a driver ended a ray.
 const UNFINISHED = -2.0e30;
@@ -6,11 +6,10 @@ const UNFINISHED = -2.0e30;
 // Whether a loop over samples ended before its last one: software drivers end shaders that loop too often, without a word.
 var<private> is_unfinished: bool;
 
-fn cast_ray(ray: Ray) -> Front {
-    var front = Front();
+// Lays the samples of a run behind what is there.
+fn cast_samples(ray: Ray, run: vec2<i32>, seen: Front) -> Front {
+    var front = seen;
     let ratio = ray.step / params.reference_length;
-    begin_ray(ray);
-    let run = samples_left(ray, samples_inside(ray));
     var k = run.x;
     var is_closed = false;
     for (; k <= run.y; k++) {
@@ -42,5 +41,5 @@ fn cast_ray(ray: Ray) -> Front {
         }
     }
     is_unfinished = is_unfinished || (!is_closed && k <= run.y);
-    return ended(ray, front);
+    return front;
 }

@@ -9,8 +9,9 @@ pub(crate) mod present;
 use crate::block::Block;
 use crate::field::Scales;
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
+use crate::place::Place;
 use crate::shader::{Constant, Data, Module, Shader, module};
-use crate::{GpuError, Precision};
+use crate::{GpuError, Precision, volumeshop};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::color::premultiply;
@@ -29,12 +30,12 @@ pub(crate) const RAY: Module = module!("ray");
 pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 
 /// Adds rays and their samples.
-pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
+pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &Place) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
     shader.add(&[RAY, module!("lattice")]);
     shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
     shader.constant("BY_RAY", Constant::Bool(view.perspective && lattice.along == StepAlong::Ray));
-    add_view(&mut shader.block, shot, grid)
+    add_view(&mut shader.block, shot, place)
 }
 
 /// The plane in the middle of the volume, counted from the eye, from which shaders count planes.
@@ -47,20 +48,19 @@ pub(crate) fn anchor(shot: &Shot, grid: &Grid) -> f64 {
 
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
 /// are of the volume's size.
-pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
-    let Shot { view, lattice, .. } = shot;
+pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<(), GpuError> {
+    let (Shot { view, lattice, .. }, Place { grid, anchor, .. }) = (shot, place);
     let planes = lattice.planes(view, grid);
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
     }
-    let anchor = anchor(shot, grid);
     let steps = anchor + 0.5;
     let first = match lattice.first(view) {
         i64::MIN => -MOST_PLANES,
         first => (first as f64 - anchor).clamp(-MOST_PLANES, MOST_PLANES),
     };
     let inverse = grid.inverse_axes();
-    let [low, high] = grid.index_box();
+    let [low, high] = place.index_box;
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
@@ -85,7 +85,8 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, grid: &Grid) -> Result<()
 /// Adds the loop over samples and what it calls.
 pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, has_lines: bool) {
     let [object] = &shot.objects;
-    shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
+    let among = if shot.combination.is_some() { volumeshop::CAST_AMONG } else { module!("cast_alone") };
+    shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast"), among]);
     if has_lines {
         lines::add(shader);
     } else {
@@ -123,6 +124,7 @@ pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
 pub(crate) fn add_mask(shader: &mut Shader) {
     shader.add(&[module!("skip_masked")]);
     shader.stages.next_plane.push("skip_masked");
+    shader.stages.next_number.push("skip_masked");
 }
 
 /// Adds clip planes alone. The spheres of caps stand after those of `styles`.
@@ -151,7 +153,7 @@ pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) 
 /// Adds what clip planes make of samples on cuts, after what measures and shades is added.
 pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.measured.push("measure_cut");
-    shader.stages.shown.push("show_cap");
+    shader.stages.cut.push("show_cap");
 }
 
 /// The rounding of a value.

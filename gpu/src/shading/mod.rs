@@ -33,7 +33,7 @@ impl LitColors {
     /// Adds the stage that shades these colours.
     pub(crate) fn push(self, shader: &mut Shader, [samples, surface]: [&'static str; 2]) {
         match self {
-            Self::Samples => shader.stages.shown.push(samples),
+            Self::Samples => shader.stages.lit.push(samples),
             Self::Surface => shader.stages.on_surface.push(surface),
         }
     }

@@ -64,7 +64,7 @@ pub(crate) fn add(
         Transparency::Illustrative => module!("transparency_illustrative"),
     }]);
     shader.add(&[module!("style")]);
-    shader.stages.shown.push("shade_style");
+    shader.stages.unlit.push("shade_style");
 }
 
 /// The styles of a place between the nodes of a function over the value.
@@ -112,7 +112,7 @@ pub(crate) fn add_spheres(shader: &mut Shader, clipping: &Clipping, styles: [&[S
         shader.add(&[ELEMENTARY, COLOR, EYE_NORMAL]);
         add_frame(shader, clipping.frame);
         shader.add(&[module!("cap")]);
-        shader.stages.shown.push("show_styled_cap");
+        shader.stages.cut.push("show_styled_cap");
     }
 }
 

@@ -63,6 +63,7 @@ pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has
     shader.constant("SURFACE_ALONE", Constant::Bool(surface.alone));
     shader.stages.begin_ray.push("find_surface");
     shader.stages.samples_left.push("end_at_surface");
+    shader.stages.all_left.push("end_at_surface");
     shader.stages.steps.push("share_before_surface");
     shader.stages.ends.push("meet_surface");
     if !shot.clipping.planes.is_empty() {

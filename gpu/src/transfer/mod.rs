@@ -22,8 +22,18 @@ pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scale
             gate::over_value(&scaled(at), opacity, &Rows { at: scaled(&rows.at), ..rows.clone() }, rounded)
         }
     };
+    add_piecewise(shader, [&at, &opacity], function.table().map(|(index, _)| index));
+    if let Some((_, nodes)) = function.table() {
+        shader.add(&[module!("table")]);
+        shader.block.number("last_node", nodes.saturating_sub(1) as f64);
+        shader.stages.nodes.push("between_nodes");
+    }
+}
+
+/// Adds a piecewise-linear function over numbers: places and values of nodes, and where it is a table the places that its
+/// entries stand for.
+pub(crate) fn add_piecewise(shader: &mut Shader, [at, opacity]: [&[f64]; 2], index: Option<&[f64]>) {
     let end = at.len() - 1;
-    let index = function.table().map(|(index, _)| index);
     let node = |k: usize| {
         let next = (k + 1).min(end);
         let width = if k < end { at[next] - at[k] } else { 1.0 };
@@ -32,16 +42,11 @@ pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scale
     shader.add(&[module!("piecewise")]);
     shader.constant("NODES", Constant::Int(at.len() as i64));
     shader.bind(2, "the transfer function", Data::Reals((0..=end).flat_map(node).collect()));
-    if let Some((_, nodes)) = function.table() {
-        shader.add(&[module!("table")]);
-        shader.block.number("last_node", nodes.saturating_sub(1) as f64);
-        shader.stages.nodes.push("between_nodes");
-    }
 }
 
 /// Adds the colours of nodes. `between` finds the colour and the opacity of a sample.
 pub(crate) fn add_colors(shader: &mut Shader, colors: &[[f64; 3]], between: Module) {
     shader.add(&[module!("colors"), between]);
     shader.bind(3, "the transfer function's colours", Data::Reals(colors.iter().flatten().copied().collect()));
-    shader.stages.shown.push("node_color");
+    shader.stages.unlit.push("node_color");
 }

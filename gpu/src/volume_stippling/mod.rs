@@ -76,7 +76,7 @@ impl<'g> HiddenPoints<'g> {
         let shader = shader(hiding, precision);
         let text = edit(shader.text_of_search(precision));
         let data_layout = data_layout(gpu, &shader)?;
-        let data = bind_data(gpu, volume, &shader, &data_layout, precision)?.group;
+        let data = bind_data(gpu, std::slice::from_ref(volume), &shader, &data_layout, precision)?.group;
         let entries = [list_entry(0, true), list_entry(1, false), list_entry(2, true)];
         let layout = gpu.attempt("the shader", || {
             gpu.device
@@ -162,7 +162,7 @@ pub(crate) fn shader(hiding: &Hiding<'_>, precision: Precision) -> Shader {
     let scales = Scales::new(measured, grid);
     field::kernel::add(&mut shader, reconstruction.kernel, measured, grid);
     let no_normal = compose::no_normal(precision);
-    field::gradient::add(&mut shader, reconstruction, NormalDirection::Outward, measured, &scales, no_normal);
+    field::gradient::add(&mut shader, reconstruction, NormalDirection::Outward, measured, &scales, no_normal, None);
     shader.add(&[RAY]);
     if let Some(mask) = mask {
         field::mask::add(&mut shader, mask, grid);

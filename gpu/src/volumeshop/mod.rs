@@ -1,12 +1,20 @@
 //! Bruckner and Gröller, VolumeShop: An Interactive System for Direct Volume Illustration, IEEE Visualization 2005.
 
+pub(crate) mod objects;
+pub(crate) mod part;
+pub(crate) mod selection;
+
 use crate::number::BILINEAR;
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Module, Shader, module};
+use drypoint_scene::glam::DMat3;
 use drypoint_scene::lighting::LightingTable;
 use drypoint_scene::shot::{Lighting, LightingParams, Material, Shot};
 
 /// The binding of the cells of a lighting table.
-pub(crate) const LIGHTING: u32 = 24;
+const LIGHTING: u32 = 24;
+
+/// Rays among objects.
+pub(crate) const CAST_AMONG: Module = module!("cast_among");
 
 /// Adds the lighting function of samples. An iso-surface has a look of its own, and none is lit by one.
 pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
@@ -15,17 +23,29 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
     shader.block.number("divisor_floor", params.divisor_floor);
     shader.constant("LIGHTING_WIDTH", Constant::Int(params.table.width() as i64));
     shader.constant("LIGHTING_HEIGHT", Constant::Int(params.table.height() as i64));
-    shader.bind(LIGHTING, "the lighting table", Data::Reals(cells(&params.table)));
-    shader.stages.shown.push("shade_by_table");
+    shader.bind(LIGHTING, "the lighting table", Data::Lighting(cells(&params.table)));
+    shader.stages.lit.push("shade_by_table");
 }
 
-/// The cells of the shot's lighting table, which for light from the world depend on the camera; none without one.
-pub(crate) fn lighting_cells(shot: &Shot) -> Option<Vec<f64>> {
-    let [object] = &shot.objects;
-    let Material::Regular(lit) = &object.material else { return None };
-    match &lit.lighting {
-        Lighting::Function(params) => Some(cells(&params.table)),
-        Lighting::Flat | Lighting::Phong(_) | Lighting::Toon(_) => None,
+/// The cells of the lighting tables of a shot, its volume's first, which for light from the world depend on the camera.
+pub(crate) fn lighting_cells(shot: &Shot) -> Vec<Vec<f64>> {
+    let parts = shot.combination.iter().flat_map(|combination| &combination.parts);
+    let materials = shot.objects.iter().chain(parts.map(|part| &part.drawn)).map(|object| &object.material);
+    let tables = materials.filter_map(|material| match material {
+        Material::Regular(lit) => match &lit.lighting {
+            Lighting::Function(params) => Some(cells(&params.table)),
+            Lighting::Flat | Lighting::Phong(_) | Lighting::Toon(_) => None,
+        },
+        Material::Style(_) => None,
+    });
+    tables.collect()
+}
+
+/// Adds the motion of a field, as it acts on gradients ([VS-2]).
+pub(crate) fn add_motion(shader: &mut Shader, moved: DMat3) {
+    shader.add(&[module!("moved")]);
+    for (name, column) in [("moved_x", 0), ("moved_y", 1), ("moved_z", 2)] {
+        shader.block.vector(name, moved.col(column));
     }
 }
 

@@ -6,6 +6,7 @@ use super::{Field, GradientEstimator, HessianEstimator, KernelData, Rung, Second
 use crate::number::Real;
 use drypoint_scene::math;
 use drypoint_scene::measured::{Measured, PaddedNumbers};
+use std::sync::Arc;
 
 /// Voxels beyond the border that a cell's estimators read.
 const REACH: usize = 2;
@@ -34,10 +35,10 @@ impl<R: Real> Field<'_, R> {
         let of_hessian = rung >= Rung::Hessian && self.how.hessian == HessianEstimator::Central;
         let back = |g: R| math::scale_by_power_of_two(g.to_f64(), self.exponent);
         Measured {
-            numbers,
-            voxels: (!is_voxels && (of_gradient || of_hessian)).then(voxels),
+            numbers: Arc::new(numbers),
+            voxels: (!is_voxels && (of_gradient || of_hessian)).then(|| Arc::new(voxels())),
             smoothed: match &self.second {
-                Second::Gaussian(c) => Some(c.padded(slope)),
+                Second::Gaussian(c) => Some(Arc::new(c.padded(slope))),
                 Second::NotPrepared | Second::Analytic | Second::Central => None,
             },
             regression: self.regression.as_ref().map(Regression::weights),

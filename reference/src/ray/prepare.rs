@@ -220,16 +220,37 @@ pub(super) fn prepare_object<'a, R: Real>(
     })
 }
 
-/// The facts of the volume that were measured for a shot.
-pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Measured {
-    let ([object], field) = (&shot.objects, &prepared.object.field);
-    let back = |g: R| drypoint_scene::math::scale_by_power_of_two(g.to_f64(), field.scale_exponent());
-    Measured {
-        gradient_range: prepared.object.gradient_range.map(|(lo, width)| [back(lo), back(width)]),
-        label_distances: prepared.object.over_two.as_ref().map_or([None, None], OverTwo::at_voxels),
-        bricks: object.skip_empty.then(|| field.bricks()),
-        ..field.measured(object.rung)
+/// The facts that were measured for a shot: of its volume, then of the volumes of its parts.
+pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Vec<Measured> {
+    let of_parts = shot.combination.iter().flat_map(|combination| &combination.parts);
+    let prepared_parts = prepared.combination.iter().flat_map(|combination| &combination.parts);
+    let of_parts = prepared_parts.map(|part| &part.object).zip(of_parts.map(|part| &part.drawn));
+    let objects: Vec<_> = std::iter::once((&prepared.object, &shot.objects[0])).chain(of_parts).collect();
+    let rung = objects.iter().fold(Rung::Value, |rung, (_, object)| rung.max(object.rung));
+    let mut fields: Vec<(&PreparedObject<'_, R>, &Object, Measured)> = Vec::new();
+    let mut all = Vec::new();
+    for (prepared, object) in objects {
+        let field = &prepared.field;
+        let is_same = |(other, of, _): &&(&PreparedObject<'_, R>, &Object, Measured)| {
+            std::ptr::eq(other.volume, prepared.volume) && of.reconstruction == object.reconstruction
+        };
+        let of_field = match fields.iter().find(is_same) {
+            Some((.., known)) => known.clone(),
+            None => {
+                let of_field = field.measured(rung);
+                fields.push((prepared, object, of_field.clone()));
+                of_field
+            }
+        };
+        let back = |g: R| drypoint_scene::math::scale_by_power_of_two(g.to_f64(), field.scale_exponent());
+        all.push(Measured {
+            gradient_range: prepared.gradient_range.map(|(lo, width)| [back(lo), back(width)]),
+            label_distances: prepared.over_two.as_ref().map_or([None, None], OverTwo::at_voxels),
+            bricks: object.skip_empty.then(|| field.bricks()),
+            ..of_field
+        });
     }
+    all
 }
 
 /// Takes over what depends on the camera from the same shot of another one, with the same lens and picture.

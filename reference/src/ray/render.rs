@@ -210,8 +210,8 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// The facts of the volume that another renderer of the same shot needs.
-    pub fn measured(&self, shot: &Shot) -> Measured {
+    /// The facts that another renderer of the same shot needs: those of the volume, then those of each part's.
+    pub fn measured(&self, shot: &Shot) -> Vec<Measured> {
         match &self.ready {
             Ready::F64(p) | Ready::Exact(p, _) => measured(p, shot),
             Ready::F32(p) => measured(p, shot),

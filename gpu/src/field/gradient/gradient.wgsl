@@ -19,8 +19,9 @@ fn length_of(g: vec3<real>) -> real {
     return sqrt(dot(g, g));
 }
 
-// The normal that shades, seen from v: the outward one, turned as the scene says. `g` has a normal.
-fn normal_of(g: vec3<real>, v: vec3<real>) -> vec3<real> {
+// The normal that shades, seen from v: the outward one, turned as the scene says, of a gradient that has one.
+fn normal_of(volume_gradient: vec3<real>, v: vec3<real>) -> vec3<real> {
+    let g = moved_gradient(volume_gradient);
     let outward = g * (params.outwards / length_of(g));
     if (params.facing > 0.0 && dot(outward, v) < 0.0) {
         return -outward;

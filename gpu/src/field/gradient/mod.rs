@@ -1,12 +1,17 @@
 //! Gradients and normals ([REC-2], [NORM-1]).
 
 use super::{Scales, kernel};
-use crate::Interpolation;
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::{Interpolation, volumeshop};
+use drypoint_scene::glam::DMat3;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Outside, Reconstruction};
 
-/// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding ([PREC-3]).
+/// The gradients of a volume that is not moved.
+pub(crate) const STILL: Module = module!("still");
+
+/// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding ([PREC-3]); `moved` leads from gradients
+/// of the volume to those of a moved field ([VS-2]).
 pub(crate) fn add(
     shader: &mut Shader,
     how: Reconstruction,
@@ -14,6 +19,7 @@ pub(crate) fn add(
     measured: &Measured,
     scales: &Scales,
     no_normal: f64,
+    moved: Option<DMat3>,
 ) {
     let kernel = how.kernel;
     match how.gradient {
@@ -33,6 +39,10 @@ pub(crate) fn add(
             let weights = measured.regression.clone().unwrap_or_default();
             shader.bind(20, "the weights of the regression", Data::Reals(weights));
         }
+    }
+    match moved {
+        None => shader.add(&[STILL]),
+        Some(moved) => volumeshop::add_motion(shader, moved),
     }
     shader.add(&[module!("gradient")]);
     let block = &mut shader.block;
@@ -64,7 +74,7 @@ pub(super) fn add_voxels(shader: &mut Shader, measured: &Measured) {
         return;
     }
     shader.add(&[VOXELS]);
-    let data = if measured.voxels.is_some() { Data::Voxels } else { Data::Numbers };
+    let data = if measured.voxels.is_some() { Data::Voxels(0) } else { Data::Numbers(0) };
     let pad = measured.voxels.as_ref().unwrap_or(&measured.numbers).pad;
     shader.constant("VOXELS_PAD", Constant::Int(pad as i64));
     shader.bind(1, "the voxels", data);

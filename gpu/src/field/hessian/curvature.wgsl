@@ -9,17 +9,23 @@ struct Shape {
     scale: real,
 }
 
-// D^-T H D^-1, times a power of two.
-fn world_shape(g: vec3<real>, second: Second) -> Shape {
+// A column of H along the index axes, in the world and as that of the moved field.
+fn world_column(h: vec3<real>) -> vec3<real> {
+    return moved_gradient(world_gradient(h));
+}
+
+// D^-T H D^-1, times a power of two, of the moved field.
+fn world_shape(volume_gradient: vec3<real>, second: Second) -> Shape {
+    let g = moved_gradient(volume_gradient);
     let s = second.square;
     let m = second.mixed;
     // The rows of H, each to the world.
-    let x = world_gradient(vec3<real>(s.x, m.z, m.y));
-    let y = world_gradient(vec3<real>(m.z, s.y, m.x));
-    let z = world_gradient(vec3<real>(m.y, m.x, s.z));
-    let a = world_gradient(vec3<real>(x.x, y.x, z.x));
-    let b = world_gradient(vec3<real>(x.y, y.y, z.y));
-    let c = world_gradient(vec3<real>(x.z, y.z, z.z));
+    let x = world_column(vec3<real>(s.x, m.z, m.y));
+    let y = world_column(vec3<real>(m.z, s.y, m.x));
+    let z = world_column(vec3<real>(m.y, m.x, s.z));
+    let a = world_column(vec3<real>(x.x, y.x, z.x));
+    let b = world_column(vec3<real>(x.y, y.y, z.y));
+    let c = world_column(vec3<real>(x.z, y.z, z.z));
     let scale = params.outside_sign / length_of(g);
     return Shape(g * scale, vec3<real>(a.x, b.y, c.z), vec3<real>(b.z, a.z, a.y), scale);
 }

@@ -34,7 +34,7 @@ pub(crate) fn add(
             let pad = measured.smoothed.as_ref().map_or(0, |smoothed| smoothed.pad);
             shader.add(&[kernel::BSPLINE, module!("gaussian")]);
             shader.constant("SMOOTHED_PAD", Constant::Int(pad as i64));
-            shader.bind(21, "the smoothed volume", Data::Smoothed);
+            shader.bind(21, "the smoothed volume", Data::Smoothed(0));
         }
         HessianEstimator::Auto | HessianEstimator::Central => {
             gradient::add_central(shader, measured);

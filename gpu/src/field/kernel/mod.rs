@@ -17,7 +17,7 @@ pub(super) const BSPLINE: Module = module!("bspline");
 pub(crate) fn add(shader: &mut Shader, kernel: Kernel, measured: &Measured, grid: &Grid) {
     shader.add(&[NUMBER, module!("../place"), module!("../numbers")]);
     shader.constant("NUMBERS_PAD", Constant::Int(measured.numbers.pad as i64));
-    shader.bind(0, "the volume", Data::Numbers);
+    shader.bind(0, "the volume", Data::Numbers(0));
     let dims = grid.dims();
     shader.block.vector("last_cell", DVec3::from_array(dims.map(|n| (n.max(2) - 2) as f64)));
     shader.block.vector("long_axes", DVec3::from_array(dims.map(|n| if n == 1 { 0.0 } else { 1.0 })));

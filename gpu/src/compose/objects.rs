@@ -1,0 +1,166 @@
+//! Objects within the shader of their picture ([VS-2]): each part is a shader of its own, attached to the picture's.
+
+use super::{camera as camera_of, of_volume};
+use crate::block::Block;
+use crate::field::Scales;
+use crate::place::Place;
+use crate::shader::{Data, Shader};
+use crate::volumeshop::objects::{self, DrawnPart};
+use crate::{GpuError, Inputs, PartInputs, Precision, ray, volumeshop};
+use drypoint_scene::glam::DVec3;
+use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::{Combination, Cut, Membership, Part, Role, Shot, placed};
+use drypoint_scene::space::Grid;
+use drypoint_scene::volume::Anatomy;
+
+/// Where the parts of a shot are drawn; those whose selection is empty are left out.
+#[derive(Default)]
+pub(crate) struct PlacesOfObjects(Vec<PlacedPart>);
+
+struct PlacedPart {
+    /// Its place among the shot's parts.
+    part: usize,
+    /// The place of its data.
+    place: Place,
+    /// The place of the memberships of its selection, with the box of [VS-2].
+    selection: Place,
+}
+
+impl PlacesOfObjects {
+    pub(crate) fn new(shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
+        let (Some(combination), given) = (&shot.combination, &inputs.objects) else { return Ok(Self::default()) };
+        if given.parts.len() != combination.parts.len()
+            || given.selections.len() != combination.selections.len()
+            || given.pictures.len() != combination.intersections.len()
+        {
+            return Err(GpuError::Material);
+        }
+        let own = Place::own(shot, inputs.volume.grid());
+        let placed = combination.parts.iter().zip(&given.parts).enumerate().filter_map(|(i, (part, of_part))| {
+            let index_box = combination.selections[part.object].index_box?;
+            Some(PlacedPart::new((i, part), index_box, combination, (inputs, of_part), &own))
+        });
+        Ok(Self(placed.collect::<Result<_, _>>()?))
+    }
+}
+
+impl PlacedPart {
+    fn new(
+        (i, part): (usize, &Part),
+        index_box: [DVec3; 2],
+        combination: &Combination,
+        (inputs, of_part): (&Inputs<'_>, &PartInputs<'_>),
+        own: &Place,
+    ) -> Result<Self, GpuError> {
+        let (world, data) = (inputs.volume.anatomy(), of_part.inputs.volume);
+        let selection = &combination.selections[part.object];
+        let motion = selection.motion.filter(|_| part.role == Role::Selection);
+        let moved = |grid: &Grid| placed(grid, motion).map_err(|_| GpuError::Material);
+        let of_data = Anatomy::between(data.grid(), data.anatomy(), world);
+        let memberships = match (&selection.membership, inputs.objects.selections[part.object]) {
+            (Membership::Voxels, None) => return Err(GpuError::Material),
+            (Membership::Voxels, Some(selection)) => moved(&selection.grid_in(world))?,
+            (Membership::Everything | Membership::Value(_), _) => moved(&of_data)?,
+        };
+        let axes = memberships.axes();
+        Ok(Self {
+            part: i,
+            place: own.beside(moved(&of_data)?, data.grid().axes()),
+            selection: Place { index_box, ..own.beside(memberships, axes) },
+        })
+    }
+
+    /// What the names of a part end with in the picture's shader.
+    fn suffix(&self) -> String {
+        objects::suffix(self.part)
+    }
+}
+
+/// What the names of a selection end with in the shader of a part.
+const OF_SELECTION: &str = "_of_selection";
+
+/// Adds the objects of a shot, after all else.
+pub(super) fn add(
+    shader: &mut Shader,
+    shot: &Shot,
+    inputs: &Inputs<'_>,
+    scales: &Scales,
+    precision: Precision,
+) -> Result<(), GpuError> {
+    let Some(combination) = &shot.combination else { return Ok(()) };
+    let places = PlacesOfObjects::new(shot, inputs)?;
+    let (mut drawn, mut shaders) = (Vec::new(), Vec::new());
+    for placed in &places.0 {
+        let (part, of_part) = (&combination.parts[placed.part], &inputs.objects.parts[placed.part]);
+        let selection = &combination.selections[part.object];
+        let is_moved = selection.motion.is_some() && part.role == Role::Selection;
+        let takes = !selection.has_own_volume && !is_moved;
+        let part_shot = shot_of(shot, part);
+        let (mut of_this, scales_of_part) = of_volume(
+            (&part_shot, &[LayerKind::Beauty]),
+            &of_part.inputs,
+            &placed.place,
+            precision,
+            shader.interpolation,
+        )?;
+        let d = |cut| combination.cutaways.iter().any(|cutaway| cutaway.part == placed.part && cutaway.cut == cut);
+        // The selection's rays, box and memberships.
+        let mut of_selection = Shader { interpolation: shader.interpolation, ..Shader::default() };
+        ray::add_lattice(&mut of_selection, &part_shot, &placed.selection)?;
+        volumeshop::selection::add(
+            &mut of_selection,
+            selection,
+            inputs.objects.selections[part.object],
+            &scales_of_part,
+            d(Cut::Bounds),
+        );
+        let is_of_volume = std::ptr::eq(of_part.inputs.volume, inputs.volume) && !is_moved;
+        volumeshop::part::add(&mut of_this, selection, is_of_volume, takes, d(Cut::Object), [&scales_of_part, scales]);
+        of_this.attach(of_selection, precision, OF_SELECTION, volumeshop::selection::NAMES, true);
+        for (_, _, data) in &mut of_this.data {
+            if let Data::Numbers(place) | Data::Voxels(place) | Data::Smoothed(place) = data {
+                *place = of_part.place;
+            }
+        }
+        drawn.push(DrawnPart { part: placed.part, takes, is_ghost: part.role == Role::Ghost, scales: scales_of_part });
+        shaders.push((of_this, placed.suffix()));
+    }
+    objects::add(shader, combination, &inputs.objects.pictures, &drawn, (shot, scales));
+    for (of_this, suffix) in shaders {
+        shader.attach(of_this, precision, &suffix, volumeshop::part::NAMES, false);
+    }
+    Ok(())
+}
+
+/// The numbers of objects that depend on the camera, beside the volume at its own place.
+pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &Place) -> Result<Block, GpuError> {
+    let mut block = Block::default();
+    let Some(combination) = &shot.combination else { return Ok(block) };
+    for placed in &places.0 {
+        let part_shot = shot_of(shot, &combination.parts[placed.part]);
+        let mut of_selection = Block::default();
+        // Planes are counted from the volume as this camera sees it.
+        let seen = |place: &Place| Place { anchor: own.anchor, ..place.clone() };
+        ray::add_view(&mut of_selection, &part_shot, &seen(&placed.selection))?;
+        let mut of_part = camera_of(&part_shot, &seen(&placed.place))?;
+        of_part.append(&of_selection, OF_SELECTION);
+        block.append(&of_part, &placed.suffix());
+    }
+    Ok(block)
+}
+
+/// A part as a shot of its own.
+fn shot_of(shot: &Shot, part: &Part) -> Shot {
+    let mut of_part = Shot {
+        objects: [part.drawn.clone()],
+        clipping: part.clipping.clone(),
+        combination: None,
+        surface: None,
+        meshes: Vec::new(),
+        refine_above: None,
+        layers: vec![LayerKind::Beauty],
+        ..shot.clone()
+    };
+    of_part.halos.list.clear();
+    of_part
+}

@@ -1,0 +1,36 @@
+//! The place of a volume in a picture.
+
+use crate::ray;
+use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::shot::Shot;
+use drypoint_scene::space::Grid;
+
+/// Where a volume is drawn.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    /// Its grid there.
+    pub(crate) grid: Grid,
+    /// The box of its samples in index space.
+    pub(crate) index_box: [DVec3; 2],
+    /// The plane from which planes are counted: that of the picture's volume.
+    pub(crate) anchor: f64,
+    /// The smallest voxel side of the picture's volume, in world units.
+    pub(crate) voxel: f64,
+    /// The transpose of L_T of [VS-2], from gradients of the volume to those of the moved field; none where it is not moved.
+    pub(crate) moved: Option<DMat3>,
+}
+
+impl Place {
+    /// The place of the picture's own volume.
+    pub(crate) fn own(shot: &Shot, grid: &Grid) -> Self {
+        let (anchor, voxel) = (ray::anchor(shot, grid), grid.voxel());
+        Self { grid: grid.clone(), index_box: grid.index_box(), anchor, voxel, moved: None }
+    }
+
+    /// Another grid beside it; `axes` are those of its data, which are others where it is moved.
+    pub(crate) fn beside(&self, grid: Grid, axes: DMat3) -> Self {
+        // L_T maps vectors of the picture's world to those of the data's.
+        let moved = (grid.axes() != axes).then(|| (axes * grid.inverse_axes()).transpose());
+        Self { index_box: grid.index_box(), grid, moved, ..*self }
+    }
+}

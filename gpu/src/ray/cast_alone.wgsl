@@ -1,0 +1,6 @@
+// A ray through the volume alone.
+
+fn cast_ray(ray: Ray) -> Front {
+    begin_ray(ray);
+    return ended(ray, cast_samples(ray, samples_left(ray, samples_inside(ray)), Front()));
+}

@@ -1,0 +1,12 @@
+// The last sample at which a part has members ([VS-7]).
+
+// Its plane, counted from the anchor; NOT_MET if there is none.
+fn last_member() -> real {
+    for (var k = part_range.y; k >= part_range.x; k--) {
+        let found = part_set(k, part_membership(k));
+        if (found.weight > 0.0 && found.mu > 0.0) {
+            return real(k);
+        }
+    }
+    return -NOT_MET;
+}

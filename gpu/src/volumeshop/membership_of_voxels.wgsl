@@ -1,0 +1,6 @@
+// A selection volume: trilinear, whatever the kernel of the data ([VS-2]). Its list holds the voxels of its box.
+
+fn membership_at(k: i32, s: real) -> real {
+    let at = locate(position(selection_ray, k) - first_member());
+    return on_grid(0, vec3(MEMBERS_X, MEMBERS_Y, MEMBERS_Z), at);
+}

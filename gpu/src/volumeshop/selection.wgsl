@@ -1,0 +1,13 @@
+// A selection on a ray: the samples in its box ([VS-2]).
+
+var<private> selection_ray: Ray;
+var<private> selection_range: vec2<i32>;
+
+fn aim_selection(x: real, y: real) {
+    selection_ray = ray_through(x, y);
+    selection_range = samples_inside(selection_ray);
+}
+
+fn is_in_selection(k: i32) -> bool {
+    return selection_range.x <= k && k <= selection_range.y;
+}
