@@ -8,10 +8,11 @@ use crate::field::Scales;
 use crate::picture_buffers::PictureBuffers;
 use crate::place::Place;
 use crate::ray::layers::in_picture_units;
-use crate::ray::lines::LinesOnRays;
+use crate::ray::lines::{LINE_STARTS, LINES, LinesOnRays};
 use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
+use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::HaloPlanes;
 use crate::{Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::backdrop::Backdrop;
@@ -72,8 +73,8 @@ pub struct PartInputs<'a> {
 
 /// The order in which rays are drawn.
 enum Rays {
-    /// Each ray alone, band by band.
-    Alone(RayPasses),
+    /// Each ray alone, band by band, after the funnels of smooth cutaways.
+    Alone(RayPasses, Option<FunnelPasses>),
     /// All rays together, plane by plane.
     Together(Box<HaloPlanes>),
 }
@@ -130,8 +131,10 @@ impl<'g> Renderer<'g> {
         let grid = inputs.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let rays = if shot.halos.list.is_empty() {
-            let has_lines = lines.is_some();
-            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, has_lines)?)
+            let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
+            let of_lines = lines.iter().flat_map(|_| [LINE_STARTS, LINES]);
+            let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
+            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?, funnels)
         } else {
             let shader = (&shader, text.as_str());
             Rays::Together(Box::new(HaloPlanes::new(gpu, shot, grid, shader, &data_layout, precision)?))
@@ -269,10 +272,15 @@ impl<'g> Renderer<'g> {
         let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
         let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress };
         match &self.rays {
-            Rays::Alone(passes) => {
+            Rays::Alone(passes, funnels) => {
                 let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
-                let lines: Vec<_> = lines.iter().flat_map(|[starts, places]| [(3, starts), (4, places)]).collect();
-                passes.draw(&canvas, (&mut self.shader.block, self.precision), &lines, rows)
+                let of_lines = lines.iter().flat_map(|[starts, lines]| [(LINE_STARTS, starts), (LINES, lines)]);
+                let further: Vec<_> = of_lines.chain(funnels.iter().map(|funnels| (MAPS, funnels.maps()))).collect();
+                if let Some(funnels) = funnels {
+                    canvas.write_params(&self.shader.block, self.precision)?;
+                    funnels.draw(&canvas)?;
+                }
+                passes.draw(&canvas, (&mut self.shader.block, self.precision), &further, rows)
             }
             Rays::Together(planes) => {
                 canvas.write_params(&self.shader.block, self.precision)?;

@@ -1,7 +1,7 @@
 //! Objects on the card: selections, ghosts, intersections and cutaways (Bruckner and Gröller 2005), as the reference draws
 //! them.
 
-use crate::double::{difference_with, differences};
+use crate::double::differences;
 use std::path::{Path, PathBuf};
 
 /// A scene of shells under Blinn–Phong.
@@ -81,7 +81,8 @@ pub(crate) fn shells(more: &str) -> String {
 }
 
 /// A motion that turns, shrinks and shifts.
-pub(crate) const MOVED: &str = "move = [9, -4, 3]\nrotate = { axis = [1, 2, 0.5], angle = 40 }\nscale = [0.9, 1.2, 0.8]";
+pub(crate) const MOVED: &str =
+    "move = [9, -4, 3]\nrotate = { axis = [1, 2, 0.5], angle = 40 }\nscale = [0.9, 1.2, 0.8]";
 
 /// Compares scenes: shaders in f64 with the reference.
 fn compare(variants: Vec<(&str, String)>) {
@@ -108,7 +109,10 @@ fn selections_and_ghosts() {
         ("everything", shells(&object("a", "move = [14, 0, 0]"))),
         ("own volume", shells(&files.own(""))),
         ("own volume, moved", shells(&files.own(MOVED))),
-        ("two selections", shells(&(files.soft(MOVED) + &object("c", "value = [[90, 0], [130, 0.7]]\nmove = [0, 0, 6]")))),
+        (
+            "two selections",
+            shells(&(files.soft(MOVED) + &object("c", "value = [[90, 0], [130, 0.7]]\nmove = [0, 0, 6]"))),
+        ),
         ("two by products", shells(&(product.to_owned() + &files.soft(MOVED) + &files.own("")))),
         ("perspective off", shells(&(files.soft(MOVED) + "[camera]\nprojection = \"orthographic\"\n"))),
         ("along rays", shells(&(files.soft(MOVED) + "[sampling]\nstep_along = \"ray\"\n"))),
@@ -116,4 +120,81 @@ fn selections_and_ghosts() {
         ("rays at edges", shells(&files.soft(MOVED)).replace("samples = 1\n", "")),
         ("out of sight", shells(&files.soft("move = [900, 0, 0]"))),
     ]);
+}
+
+#[test]
+fn intersections() {
+    let files = Files::new();
+    let meet = |with: &str, more: &str| format!("[[intersection]]\nobject = \"a\"\nwith = \"{with}\"\n{more}\n");
+    let both = meet("ghost", "color = \"#ff4010c0\"\nopacity = \"over\"")
+        + &meet("background", "opacity = \"plus\"\nswap = true");
+    let near = "move = [2, -1, 1]\nrotate = { axis = [1, 2, 0.5], angle = 30 }";
+    compare(vec![
+        ("colour and mean", shells(&(files.soft(near) + &both))),
+        ("by products", shells(&("[combine]\nfuzzy = \"product\"\n".to_owned() + &files.soft(near) + &both))),
+        ("styles", styled(&(files.soft(near) + &both))),
+    ]);
+}
+
+#[test]
+fn cutaways() {
+    let files = Files::new();
+    let behind = "move = [2, 3, 1]\nghosting = 0.8\nghosting_of_ghost = 0.3";
+    compare(vec![
+        ("by boxes", shells(&files.soft(behind))),
+        ("by objects", shells(&files.soft(&format!("{behind}\ncut = \"object\"")))),
+        ("of styles", styled(&files.soft(behind))),
+        ("smooth", shells(&files.soft(&format!("{behind}\nfunnel = \"3.2 px\"")))),
+        (
+            "smooth along rays, two",
+            shells(
+                &(files.soft(&format!("{behind}\nfunnel = \"2 px\""))
+                    + &files.own("move = [3, 0, 0]\nghosting = 0.5\nfunnel = \"1.3 px\"\ncut = \"object\"")
+                    + "[sampling]\nstep_along = \"ray\"\n"),
+            ),
+        ),
+        ("gone", shells(&files.soft("move = [2, 3, 1]\nghosting = 1"))),
+        (
+            "of a lighting function",
+            shells(&files.soft(behind))
+                .replace("[shading]", "[shading]\nmodel = \"lighting-function\"\npreset = \"metal-contours\""),
+        ),
+    ]);
+}
+
+#[test]
+fn looks_of_parts() {
+    let files = Files::new();
+    let own_look = "[object.transfer]\nkind = \"regular\"\nnodes = [{ at = 30, color = \"#30ff60\", opacity = 0.2 }, { at = 240, color = \"#ffffff\", opacity = 0.9 }]\n\
+                    [object.shading]\nmodel = \"toon\"\n[object.ghost.shading]\nmodel = \"lighting-function\"\npreset = \"tone\"\n";
+    let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0, -1, 0]\nspace = \"index\"\ncap = \"#ff3010c0\"\napplies = [\"background\", \"a\"]\n";
+    let layers = "layers = [\"beauty\", \"normal\", \"depth\", \"gradient\", \"first\", \"first.normal\", \"curvature\", \"counts\"]";
+    compare(vec![
+        ("of their own", shells(&(files.soft(&format!("{MOVED}\n{own_look}")) + &files.own("")))),
+        ("cut", shells(&(files.soft(MOVED) + clip))),
+        ("layers", SHELLS.replace("LAYERS", layers) + &files.soft(MOVED) + &files.own("move = [3, 0, 0]")),
+        ("an iso-surface", shells(&(files.soft(MOVED) + "[surface]\niso = 110\ncolor = \"#c0c0c0\"\n"))),
+        ("mipmaps and Hessians", styled(&files.soft(MOVED)).replace("kappa = \"ray\"", "kappa = \"exact\"")),
+        ("gradient magnitudes", two_quantities(&files.soft(MOVED))),
+    ]);
+}
+
+/// The shells in illustrative styles with contours by κ along the ray.
+fn styled(more: &str) -> String {
+    let nodes = "[transfer]\nnodes = [{ at = 20, style = \"wax\", opacity = 0 }, { at = 255, style = \"skin\", opacity = 0.5 }]\n\
+                 [contours]\nkappa = \"ray\"\n";
+    let scene = shells("");
+    let (before, _) = scene.split_once("[transfer]").unwrap();
+    format!("{before}{nodes}{more}")
+}
+
+/// The shells by their value and their gradient magnitude.
+fn two_quantities(more: &str) -> String {
+    let scene = shells("");
+    let (before, _) = scene.split_once("[transfer]").unwrap();
+    format!(
+        "{before}[transfer]\nkind = \"regular\"\nover = [\"value\", \"gradient-magnitude\"]\n\
+         rows = [{{ at = 0, nodes = [{{ at = 20, color = \"#c08040\", opacity = 0 }}, {{ at = 255, color = \"#4080c0\", opacity = 0.2 }}] }}, \
+         {{ at = 20, nodes = [{{ at = 20, color = \"#80ff40\", opacity = 0 }}, {{ at = 255, color = \"#ff80c0\", opacity = 0.6 }}] }}]\n[shading]\n{more}"
+    )
 }

@@ -103,7 +103,8 @@ pub(super) fn add(
             precision,
             shader.interpolation,
         )?;
-        let d = |cut| combination.cutaways.iter().any(|cutaway| cutaway.part == placed.part && cutaway.cut == cut);
+        let has_last_member =
+            combination.cutaways.iter().any(|cutaway| cutaway.part == placed.part && cutaway.cut == Cut::Object);
         // The selection's rays, box and memberships.
         let mut of_selection = Shader { interpolation: shader.interpolation, ..Shader::default() };
         ray::add_lattice(&mut of_selection, &part_shot, &placed.selection)?;
@@ -112,10 +113,9 @@ pub(super) fn add(
             selection,
             inputs.objects.selections[part.object],
             &scales_of_part,
-            d(Cut::Bounds),
         );
         let is_of_volume = std::ptr::eq(of_part.inputs.volume, inputs.volume) && !is_moved;
-        volumeshop::part::add(&mut of_this, selection, is_of_volume, takes, d(Cut::Object), [&scales_of_part, scales]);
+        volumeshop::part::add(&mut of_this, selection, is_of_volume, takes, has_last_member, [&scales_of_part, scales]);
         of_this.attach(of_selection, precision, OF_SELECTION, volumeshop::selection::NAMES, true);
         for (_, _, data) in &mut of_this.data {
             if let Data::Numbers(place) | Data::Voxels(place) | Data::Smoothed(place) = data {

@@ -42,8 +42,9 @@ fn has_sample(ray: Ray, k: i32) -> bool {
     return k >= i32(params.first_plane) && in_box(position(ray, k));
 }
 
-// The samples inside the box, as the closed range x..=y; none where x > y. Inside is decided on the position itself.
-fn samples_inside(ray: Ray) -> vec2<i32> {
+// The planes at which a ray comes into the box and leaves it, counted from the anchor, with their fractions; the first is the
+// larger one if it misses the box.
+fn through_box(ray: Ray) -> vec2<real> {
     var near = real(-4.0e6);
     var far = real(4.0e6);
     let low = box_low();
@@ -53,7 +54,7 @@ fn samples_inside(ray: Ray) -> vec2<i32> {
         let d = ray.along[axis] * ray.depth_step;
         if (abs(d) < 1.0e-20) {
             if (o < low[axis] || o > high[axis]) {
-                return vec2(1, 0);
+                return vec2<real>(4.0e6, -4.0e6);
             }
             continue;
         }
@@ -62,11 +63,17 @@ fn samples_inside(ray: Ray) -> vec2<i32> {
         near = max(near, min(a, b));
         far = min(far, max(a, b));
     }
-    if (!(near <= far + 2.0)) {
+    return vec2<real>(near, far);
+}
+
+// The samples inside the box, as the closed range x..=y; none where x > y. Inside is decided on the position itself.
+fn samples_inside(ray: Ray) -> vec2<i32> {
+    let through = through_box(ray);
+    if (!(through.x <= through.y + 2.0)) {
         return vec2(1, 0);
     }
-    var first = max(i32(floor(near)) - 1, i32(params.first_plane));
-    var last = i32(ceil(far)) + 1;
+    var first = max(i32(floor(through.x)) - 1, i32(params.first_plane));
+    var last = i32(ceil(through.y)) + 1;
     while (first <= last && !in_box(position(ray, first))) {
         first++;
     }

@@ -9,6 +9,10 @@ use drypoint_scene::shot::{Shot, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
+/// The bindings of the first fragment of each ray, and of fragments.
+pub(crate) const LINE_STARTS: u32 = 3;
+pub(crate) const LINES: u32 = 4;
+
 /// Adds lines, before an iso-surface.
 pub(crate) fn add(shader: &mut Shader) {
     shader.add(&[module!("lines")]);

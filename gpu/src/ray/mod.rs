@@ -64,7 +64,7 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
-    if shot.surface.is_some() {
+    if shot.surface.is_some() || volumeshop::has_funnel(shot) {
         let near = if view.perspective { lattice.near / lattice.step - steps } else { -MOST_PLANES };
         block.number("near_steps", near.max(-MOST_PLANES));
     }

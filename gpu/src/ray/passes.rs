@@ -32,17 +32,16 @@ pub(crate) struct RayPasses {
 }
 
 impl RayPasses {
-    /// Compiles the passes of a shot with its whole shader. Lines inside the volume have two further lists.
+    /// Compiles the passes of a shot with its whole shader. `further` are the bindings of further lists of group 0.
     pub(crate) fn new(
         gpu: &Gpu,
         (shot, grid): (&Shot, &Grid),
         text: &str,
         data: &wgpu::BindGroupLayout,
         layers: &[LayerKind],
-        has_lines: bool,
+        further: &[u32],
     ) -> Result<Self, GpuError> {
-        let of_lines: &[u32] = if has_lines { &[3, 4] } else { &[] };
-        let pass = |entry_point, reads: &[u32]| Pass::new(gpu, text, entry_point, &[reads, of_lines].concat(), data);
+        let pass = |entry_point, reads: &[u32]| Pass::new(gpu, text, entry_point, &[reads, further].concat(), data);
         let planes = shot.lattice.planes(&shot.view, grid);
         Ok(Self {
             draw: pass("draw", &[0])?,
@@ -54,13 +53,13 @@ impl RayPasses {
         })
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back. `lines` are the lists of lines with
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back. `further` are the further lists with
     /// their bindings.
     pub(crate) fn draw(
         &self,
         canvas: &Canvas<'_>,
         (block, precision): (&mut Block, Precision),
-        lines: &[(u32, &wgpu::Buffer)],
+        further: &[(u32, &wgpu::Buffer)],
         rows: Range<usize>,
     ) -> Result<(), GpuError> {
         let [width, height] = self.size;
@@ -71,7 +70,7 @@ impl RayPasses {
         let refine = self.refinement.as_ref().map(|pass| (pass, rows.clone(), REFINED_ACROSS));
         let passes = 1 + usize::from(refine.is_some());
         for (number, (pass, pass_rows, across)) in std::iter::once(draw).chain(refine).enumerate() {
-            let group = canvas.group(&pass.layout, number > 0, lines)?;
+            let group = canvas.group(&pass.layout, number > 0, further)?;
             let parts = across * across;
             // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
             let at_once = if self.is_beauty_alone { 1 } else { parts };

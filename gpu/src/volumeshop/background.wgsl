@@ -14,6 +14,10 @@ var<private> here: Sample;
 var<private> here_k: i32;
 var<private> is_here: bool;
 
+fn aim_objects(pixel: vec2<i32>, part: i32, across: i32) {
+    aim_parts(point_of(pixel, part, across));
+}
+
 fn aim_background(ray: Ray) {
     own_ray = ray;
     own_box = samples_inside(ray);

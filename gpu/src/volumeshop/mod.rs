@@ -1,5 +1,6 @@
 //! Bruckner and Gröller, VolumeShop: An Interactive System for Direct Volume Illustration, IEEE Visualization 2005.
 
+pub(crate) mod funnel;
 pub(crate) mod objects;
 pub(crate) mod part;
 pub(crate) mod selection;
@@ -47,6 +48,11 @@ pub(crate) fn add_motion(shader: &mut Shader, moved: DMat3) {
     for (name, column) in [("moved_x", 0), ("moved_y", 1), ("moved_z", 2)] {
         shader.block.vector(name, moved.col(column));
     }
+}
+
+/// Whether a shot has a smooth cutaway.
+pub(crate) fn has_funnel(shot: &Shot) -> bool {
+    shot.combination.iter().flat_map(|combination| &combination.cutaways).any(|cutaway| cutaway.funnel > 0.0)
 }
 
 fn cells(table: &LightingTable) -> Vec<f64> {

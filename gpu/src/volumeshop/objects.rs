@@ -1,11 +1,12 @@
 //! Objects together ([VS-2] … [VS-4], [VS-7]): functions of the picture's shader that call those of its parts.
 
+use super::funnel;
 use crate::field::Scales;
 use crate::number::{BILINEAR, NUMBER};
 use crate::shader::{Data, Module, Shader, module};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::shot::{
-    Combination, Cut, Fuzzy, Intersection, IntersectionOpacity, IntersectionPaint, Lighting, Material, Shot,
+    Combination, Cut, Cutaway, Fuzzy, Intersection, IntersectionOpacity, IntersectionPaint, Lighting, Material, Shot,
     Transparency,
 };
 use std::fmt::Write;
@@ -49,9 +50,11 @@ pub(crate) fn add(
     for (i, cutaway) in cutaways.iter().enumerate() {
         shader.block.number(format!("ghosting_{i}"), cutaway.ghosting);
     }
-    let ends = cutaways.iter().map(|cutaway| (cutaway.part, cutaway.cut)).collect::<Vec<_>>();
-    let mut text = rays(parts, &ends);
-    text += &ghosts(ends.len());
+    if cutaways.iter().any(|cutaway| cutaway.funnel > 0.0) {
+        funnel::add(shader, shot);
+    }
+    let mut text = rays(parts, &cutaways);
+    text += &ghosts(cutaways.len());
     text += &together(shader, combination, pictures, parts, scales);
     shader.stages.objects = Some(text);
 }
@@ -65,10 +68,10 @@ fn enhancement(material: &Material) -> Module {
     }
 }
 
-/// The rays of parts, and the samples at which each can show something. `ends` are the parts and the depths of cutaways.
-fn rays(parts: &[DrawnPart], ends: &[(usize, Cut)]) -> String {
+/// The rays of parts, and the samples at which each can show something.
+fn rays(parts: &[DrawnPart], cutaways: &[&Cutaway]) -> String {
     let (mut aims, mut run, mut spans, mut cuts) = (String::new(), String::new(), String::new(), String::new());
-    let mut variables = String::new();
+    let (mut variables, mut planes, mut funnels) = (String::new(), String::new(), 0);
     for DrawnPart { part, takes, .. } in parts {
         let _ = writeln!(aims, "    aim_part_{part}(at.x, at.y);");
         let _ = writeln!(run, "    run = hull(run, part_range_{part});");
@@ -77,22 +80,36 @@ fn rays(parts: &[DrawnPart], ends: &[(usize, Cut)]) -> String {
             let _ = writeln!(spans, "    span = span_within(span, k, selection_range_{part});");
         }
     }
-    for (i, (part, cut)) in ends.iter().enumerate() {
+    for (i, cutaway) in cutaways.iter().enumerate() {
         let _ = writeln!(variables, "var<private> cut_end_{i}: i32;");
         let _ = writeln!(spans, "    span = span_within(span, k, vec2(NO_PLANE, cut_end_{i} - 1));");
-        let plane = match cut {
-            Cut::Bounds => "far_side",
-            Cut::Object => "last_member",
+        let plane = match cutaway.cut {
+            Cut::Bounds => format!("far_side_{}()", cutaway.part),
+            Cut::Object => format!("last_member_{}()", cutaway.part),
         };
-        let _ = writeln!(cuts, "    cut_end_{i} = i32(ceil({plane}_{part}()));");
+        let mut end = plane.clone();
+        if cutaway.funnel > 0.0 {
+            let _ = writeln!(planes, "        case {funnels}: {{ return {plane}; }}");
+            end = format!("funnel_end({funnels}, {plane})");
+            funnels += 1;
+        }
+        let _ = writeln!(cuts, "    cut_end_{i} = i32(ceil({end}));");
     }
-    format!(
+    let mut text = format!(
         "\n// The first samples that cutaways leave ([VS-7]).\n{variables}\n\
-         fn aim_objects(pixel: vec2<i32>, part: i32, across: i32) {{\n    let at = point_of(pixel, part, across);\n{aims}}}\n\n\
+         fn aim_parts(at: vec2<real>) {{\n{aims}}}\n\n\
          fn run_of_parts(own: vec2<i32>) -> vec2<i32> {{\n    var run = own;\n{run}    return run;\n}}\n\n\
          fn span_from(k: i32, last: i32) -> Span {{\n    var span = Span(last, false);\n{spans}    return span;\n}}\n\n\
          fn end_cutaways() {{\n{cuts}}}\n"
-    )
+    );
+    if funnels > 0 {
+        let _ = write!(
+            text,
+            "\nfn funnel_plane(funnel: i32) -> real {{\n    switch funnel {{\n{planes}        \
+             default: {{ return -NOT_MET; }}\n    }}\n}}\n"
+        );
+    }
+    text
 }
 
 /// The ghosting of the background by a number of cutaways.

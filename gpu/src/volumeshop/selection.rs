@@ -11,19 +11,9 @@ use drypoint_scene::volume::Selection;
 /// The names that a part calls.
 pub(crate) const NAMES: &[&str] = &["aim_selection", "selection_range", "is_in_selection", "membership_at", "far_side"];
 
-/// Adds a selection, to a shader with the rays of its memberships' grid; `scales` are those of the data's values. `has_far_side`
-/// says whether a cutaway asks for its box.
-pub(crate) fn add(
-    shader: &mut Shader,
-    selection: &SelectionParams,
-    memberships: Option<&Selection>,
-    scales: &Scales,
-    has_far_side: bool,
-) {
+/// Adds a selection, to a shader with the rays of its memberships' grid; `scales` are those of the data's values.
+pub(crate) fn add(shader: &mut Shader, selection: &SelectionParams, memberships: Option<&Selection>, scales: &Scales) {
     shader.add(&[module!("selection")]);
-    if has_far_side {
-        shader.add(&[module!("far_side")]);
-    }
     match (&selection.membership, memberships) {
         (Membership::Value(pairs), _) => {
             let at: Vec<f64> = pairs.iter().map(|pair| scales.value(pair[0])).collect();

@@ -11,3 +11,9 @@ fn aim_selection(x: real, y: real) {
 fn is_in_selection(k: i32) -> bool {
     return selection_range.x <= k && k <= selection_range.y;
 }
+
+// The plane at which the ray leaves the box, counted from the anchor, with its fraction; -NOT_MET if it misses it ([VS-7]).
+fn far_side() -> real {
+    let through = through_box(selection_ray);
+    return select(real(-NOT_MET), through.y, through.x <= through.y);
+}

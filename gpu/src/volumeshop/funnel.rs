@@ -1,0 +1,200 @@
+//! Smooth cutaways ([VS-7]): the maps of their funnels, found before the picture is drawn.
+
+use crate::buffers::{buffer, entry, list_entry, pipeline};
+use crate::canvas::Canvas;
+use crate::number::{DOUBLE, SINGLE};
+use crate::shader::{Data, Shader, module};
+use crate::{Gpu, GpuError, Precision};
+use drypoint_scene::math;
+use drypoint_scene::shot::{Cutaway, Shot};
+
+/// Pixels along the side of a workgroup.
+const GROUP: u32 = 8;
+
+/// The binding of the maps where a picture reads them.
+pub(crate) const MAPS: u32 = 5;
+
+/// The funnel of a cutaway.
+struct Funnel {
+    sigma: f64,
+    size: [usize; 2],
+}
+
+impl Funnel {
+    /// Pixels of the guard band: ⌊4σ⌋ + ⌊1.5σ⌋.
+    fn guard(&self) -> usize {
+        self.reach() + self.radius()
+    }
+
+    /// Taps to each side.
+    fn reach(&self) -> usize {
+        (4.0 * self.sigma) as usize
+    }
+
+    /// Pixels by which depths are dilated.
+    fn radius(&self) -> usize {
+        (1.5 * self.sigma) as usize
+    }
+
+    /// For each row of the dilation, from the middle on, the pixels to each side.
+    fn halves(&self) -> impl Iterator<Item = u32> {
+        let r = 1.5 * self.sigma;
+        (0..=self.radius()).map(move |y| (r * r - (y * y) as f64).max(0.0).sqrt() as u32)
+    }
+
+    /// The weights of the Gaussian, of sum 1.
+    fn taps(&self) -> Vec<f64> {
+        let (reach, sigma) = (self.reach() as i64, self.sigma);
+        let weight = |i: i64| math::exp(-0.5 * (i as f64 / sigma) * (i as f64 / sigma));
+        let sum: f64 = (-reach..=reach).map(weight).sum();
+        (-reach..=reach).map(|i| weight(i) / sum).collect()
+    }
+
+    /// Pixels across and down with the guard band.
+    fn banded(&self) -> [usize; 2] {
+        self.size.map(|n| n + 2 * self.guard())
+    }
+}
+
+/// The funnels of a shot, of those cutaways that have one.
+fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
+    let cutaways = shot.combination.iter().flat_map(|combination| {
+        let is_drawn = |cutaway: &&Cutaway| {
+            let part = &combination.parts[cutaway.part];
+            combination.selections[part.object].index_box.is_some()
+        };
+        combination.cutaways.iter().filter(is_drawn)
+    });
+    let smooth = cutaways.filter(|cutaway| cutaway.funnel > 0.0);
+    smooth.map(|cutaway| Funnel { sigma: cutaway.funnel, size: shot.view.size })
+}
+
+/// Adds the funnels of a shot to its shader.
+pub(super) fn add(shader: &mut Shader, shot: &Shot) {
+    let mut first = 0;
+    let mut bands = Vec::new();
+    for funnel in funnels(shot) {
+        bands.extend([funnel.guard() as u32, first as u32]);
+        first += funnel.banded().iter().product::<usize>();
+    }
+    shader.add(&[module!("funnel"), module!("funnel_depths")]);
+    shader.stages.begin_part.push("begin_funnel");
+    shader.bind(26, "the bands of funnels", Data::Words(bands));
+}
+
+/// Passes that map the funnels of a shot, with their buffers.
+pub(crate) struct FunnelPasses {
+    find: wgpu::ComputePipeline,
+    find_layout: wgpu::BindGroupLayout,
+    /// Dilation, smoothing along rows, and the rest.
+    smooth: [wgpu::ComputePipeline; 3],
+    group: wgpu::BindGroup,
+    depths: wgpu::Buffer,
+    maps: wgpu::Buffer,
+    /// Pixels across and down of the widest guard band, and the number of funnels.
+    groups: [u32; 3],
+}
+
+impl FunnelPasses {
+    /// The passes of a shot with its whole shader; none without funnels.
+    pub(crate) fn new(
+        gpu: &Gpu,
+        shot: &Shot,
+        text: &str,
+        data: &wgpu::BindGroupLayout,
+        precision: Precision,
+    ) -> Result<Option<Self>, GpuError> {
+        let funnels: Vec<Funnel> = funnels(shot).collect();
+        if funnels.is_empty() {
+            return Ok(None);
+        }
+        // The lists.
+        let (mut numbers, mut halves, mut taps, mut depths) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        let mut most = [0; 2];
+        for funnel in &funnels {
+            let (own_halves, own_taps): (Vec<u32>, _) = (funnel.halves().collect(), funnel.taps());
+            let of_pixels = [funnel.guard(), depths, funnel.radius(), halves.len()];
+            numbers
+                .extend(of_pixels.into_iter().chain([funnel.reach(), taps.len() + funnel.reach()]).map(|n| n as u32));
+            halves.extend(own_halves);
+            taps.extend(own_taps);
+            let banded = funnel.banded();
+            depths += banded[0] * banded[1];
+            most = [most[0].max(banded[0]), most[1].max(banded[1])];
+        }
+        let [width, height] = shot.view.size;
+        let list = |bytes: &[u8]| buffer(gpu, "the funnels", bytes, wgpu::BufferUsages::STORAGE);
+        let room = |reals: usize| list(&vec![0; reals * precision.size() as usize]);
+        let (funnel_list, half_list) = (list(bytemuck::cast_slice(&numbers))?, list(bytemuck::cast_slice(&halves))?);
+        let lists = [funnel_list, half_list, list(&precision.bytes(&taps))?, room(depths)?];
+        let maps = [room(2 * depths)?, room(2 * depths)?, room(2 * width * height * funnels.len())?];
+        // The passes.
+        let find_layout = gpu.attempt("the shader", || {
+            let entries = [list_entry(0, true), list_entry(6, false)];
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
+            gpu.device.create_bind_group_layout(&descriptor)
+        })?;
+        let layout = gpu.attempt("the shader", || {
+            let entries: Vec<_> = (0..7).map(|binding| list_entry(binding, binding < 4)).collect();
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
+            gpu.device.create_bind_group_layout(&descriptor)
+        })?;
+        let number = if precision == Precision::Single { SINGLE } else { DOUBLE };
+        let text_of_maps = format!(
+            "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\n{}",
+            number.text,
+            module!("funnel_maps").text
+        );
+        let smooth = |entry_point| pipeline(gpu, text_of_maps.clone(), entry_point, &[&layout]);
+        let smooth = [smooth("dilate")?, smooth("smooth_rows")?, smooth("map_funnels")?];
+        let group = gpu.attempt("the funnels", || {
+            let buffers = lists.iter().chain(&maps);
+            let entries: Vec<_> = buffers.enumerate().map(|(i, buffer)| entry(i as u32, buffer)).collect();
+            let descriptor = wgpu::BindGroupDescriptor { label: Some("funnels"), layout: &layout, entries: &entries };
+            gpu.device.create_bind_group(&descriptor)
+        })?;
+        let ([.., depths], [.., maps]) = (lists, maps);
+        let [across, down] = most.map(|n| (n as u32).div_ceil(GROUP));
+        Ok(Some(Self {
+            find: pipeline(gpu, text.to_owned(), "find_depths", &[&find_layout, data])?,
+            find_layout,
+            smooth,
+            group,
+            depths,
+            maps,
+            groups: [across, down, funnels.len() as u32],
+        }))
+    }
+
+    /// The maps, as they stand after [`draw`](Self::draw).
+    pub(crate) fn maps(&self) -> &wgpu::Buffer {
+        &self.maps
+    }
+
+    /// Maps the funnels as the camera of the scalars sees them.
+    pub(crate) fn draw(&self, canvas: &Canvas<'_>) -> Result<(), GpuError> {
+        let device = &canvas.gpu.device;
+        canvas.gpu.attempt("the funnels", || {
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("funnels"),
+                layout: &self.find_layout,
+                entries: &[entry(0, canvas.params), entry(6, &self.depths)],
+            });
+            let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+                let [x, y, z] = self.groups;
+                pass.set_pipeline(&self.find);
+                pass.set_bind_group(0, &group, &[]);
+                pass.set_bind_group(1, canvas.data, &[]);
+                pass.dispatch_workgroups(x, y, z);
+                for pipeline in &self.smooth {
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(0, &self.group, &[]);
+                    pass.dispatch_workgroups(x, y, z);
+                }
+            }
+            canvas.gpu.queue.submit([encoder.finish()]);
+        })
+    }
+}

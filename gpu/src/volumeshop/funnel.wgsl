@@ -1,0 +1,31 @@
+// Smooth cutaways: a funnel about an object (6.2, 7; [VS-7]). Depths are counted from the plane at the anchor.
+
+// Of each pixel of each funnel the coverage c~ and the mean depth d^.
+@group(0) @binding(5) var<storage, read> funnel_maps: array<vec2<real>>;
+
+var<private> funnel_pixel: vec2<i32>;
+
+fn begin_funnel(pixel: vec2<i32>, part: i32, across: i32) {
+    funnel_pixel = pixel;
+}
+
+// Depths of planes of a ray, and planes at depths.
+fn depth_of_plane(ray: Ray, plane: real) -> real {
+    return plane * ray.depth_step + params.anchor_steps * (ray.depth_step - params.step);
+}
+
+fn plane_at_depth(ray: Ray, depth: real) -> real {
+    return (depth - params.anchor_steps * (ray.depth_step - params.step)) / ray.depth_step;
+}
+
+// The plane at which a funnel ends: d~ = z_in + min(1, 2 c~)(d^ - z_in), z_in where the ray comes into the volume's box, or that
+// of the object where the ray hits it and it is farther.
+fn funnel_end(funnel: i32, plane: real) -> real {
+    let map = funnel_maps[(funnel * HEIGHT + funnel_pixel.y) * WIDTH + funnel_pixel.x];
+    let through = through_box(own_ray);
+    if (!(map.x > 1.0e-6) || through.x > through.y) {
+        return plane;
+    }
+    let z_in = depth_of_plane(own_ray, max(through.x, params.near_steps));
+    return max(plane_at_depth(own_ray, z_in + min(2.0 * map.x, 1.0) * (map.y - z_in)), plane);
+}
