@@ -15,6 +15,8 @@ mod sabotage_of_bounds;
 mod sabotage_of_halos;
 #[path = "sabotage/lines.rs"]
 mod sabotage_of_lines;
+#[path = "sabotage/objects.rs"]
+mod sabotage_of_objects;
 #[path = "sabotage/points.rs"]
 mod sabotage_of_points;
 #[path = "sabotage/rays.rs"]
