@@ -136,8 +136,13 @@ fn intersections() {
     let mean = meet("background", "opacity = \"plus\"\nswap = true");
     let color = meet("ghost", "color = \"#ff4010c0\"\nopacity = \"over\"");
     let from_picture = meet("ghost", &format!("color = {}", quoted(&picture)));
+    // On a cut the background has the plane's normal, also where it meets something.
+    let half = object("a", "value = [[0, 0.5], [255, 0.5]]\nmove = [2, 1, 0]");
+    let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0.2, -1, 0.1]\nspace = \"index\"\napplies = [\"background\"]\n\
+                [camera]\ndirection = [0, 1, 0]\n";
     compare(vec![
         ("a colour, and the mean", shells(&(near.clone() + &color + &mean))),
+        ("on a cut", shells(&(half + &mean + clip))),
         ("a picture, by products, of styles", styled(&(PRODUCT.to_owned() + &near + &from_picture + &mean))),
     ]);
 }
