@@ -6,7 +6,9 @@ use super::{
 };
 use crate::plan::{Plan, halos_in_effect};
 use crate::space::Grid;
-use crate::tables::{FocusPoints, Halo, Iso, LabelKey, Length, PictureSettings, Scene, SeedBy, Seeding, Spreading};
+use crate::tables::{
+    FocusPoints, Halo, Iso, LabelKey, Length, PartName, PictureSettings, Scene, SeedBy, Seeding, Spreading,
+};
 use crate::transfer::Function;
 use glam::DVec3;
 use serde::Serialize;
@@ -18,6 +20,15 @@ pub struct Halos {
     /// last ([HALO-7]). All of the scene if one has an effect, so that layers find them by their places; else none. One without an
     /// effect beside others has no seeds.
     pub list: Vec<HaloParams>,
+    /// The query of every sample of the background that is asked for its seeds.
+    pub query: SampleQuery,
+}
+
+/// The seeds of halos among the samples of a selection or a ghost, by its own function and labels ([VS-2]).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartSeeds {
+    /// The seeds of each of [`Halos::list`]; 0 everywhere for a halo that takes other parts.
+    pub list: Vec<HaloSeed>,
     /// The query of every sample that is asked for its seeds.
     pub query: SampleQuery,
 }
@@ -29,7 +40,7 @@ pub struct HaloParams {
     pub name: String,
     /// Emissive or occlusive ([HALO-7]).
     pub kind: HaloKind,
-    /// Which samples are seeds, and how strong ones ([HALO-2], [HALO-3]).
+    /// Which samples of the background are seeds, and how strong ones ([HALO-2], [HALO-3]).
     pub seed: HaloSeed,
     /// From seeds to intensities on a plane ([HALO-4], [HALO-5]).
     pub spread: HaloSpread,
@@ -117,11 +128,23 @@ impl Halos {
     }
 }
 
+impl PartSeeds {
+    /// The seeds of a part, by its scene; none where no halo takes it. Lengths are measured by the grid of `[volume]`.
+    pub(super) fn new(scene: &Scene, plan: &Plan, grid: &Grid, function: &Function) -> Result<Option<Self>, ShotError> {
+        if halos_in_effect(scene).next().is_none() {
+            return Ok(None);
+        }
+        let list = scene.halos.iter().enumerate().map(|(i, halo)| HaloSeed::in_effect(i, halo, scene, grid));
+        let list: Vec<HaloSeed> = list.collect::<Result<_, _>>()?;
+        Ok(Some(Self { list, query: query::of_seeds(scene, plan, function) }))
+    }
+}
+
 impl HaloParams {
     /// Halo `place` of a scene.
     fn new(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
-        let seed = match halos_in_effect(scene).any(|(i, _)| i == place) {
-            true => HaloSeed::new(place, halo, scene, grid)?,
+        let seed = match halo.takes(&PartName::Background) {
+            true => HaloSeed::in_effect(place, halo, scene, grid)?,
             false => HaloSeed::none(),
         };
         let is_tinted = |(j, other): (usize, &Halo)| {
@@ -148,6 +171,12 @@ impl HaloParams {
 }
 
 impl HaloSeed {
+    /// Whether a sample can be a seed for some value.
+    pub fn can_seed(&self) -> bool {
+        let is_zero = |nodes: &Vec<[f64; 2]>| nodes.iter().all(|node| node[1] <= 0.0);
+        !matches!(&self.value, Some(SeedValue::Nodes(nodes)) if is_zero(nodes))
+    }
+
     /// The seeds of a halo without an effect: 0 at every value.
     fn none() -> Self {
         Self {
@@ -157,6 +186,15 @@ impl HaloSeed {
             labels: None,
             gradient_exponent: 0.0,
             side: SeedSide::Power { exponent: 0.0 },
+        }
+    }
+
+    /// The seeds of halo `place` of a scene, if it has an effect.
+    fn in_effect(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
+        if halos_in_effect(scene).any(|(i, _)| i == place) {
+            Self::new(place, halo, scene, grid)
+        } else {
+            Ok(Self::none())
         }
     }
 

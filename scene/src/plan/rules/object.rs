@@ -1,6 +1,6 @@
 //! Rules of `[[object]]`, `[combine]` and `[[intersection]]`: needs and keys without effect.
 
-use super::{Asks, Idle, Pass, Rules};
+use super::{Asks, Idle, Pass, Rules, halos_in_effect};
 use crate::plan::{Plan, Samples};
 use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene};
 
@@ -18,7 +18,10 @@ pub(super) const RULES: Rules = Rules {
             let key = idle.at.key.clone();
             return idle.key(&key, "the volume itself is not drawn");
         }
-        idle_keys(object, idle);
+        let own = PartName::Selection(object.name.clone());
+        let ghost = PartName::Ghost(object.name.clone());
+        let mut seeds = halos_in_effect(scene).filter(|(_, halo)| halo.takes(&own) || halo.takes(&ghost));
+        idle_keys(object, seeds.any(|(_, halo)| halo.seed.labels.is_some()), idle);
     },
     ..Rules::new("object")
 };
@@ -65,7 +68,8 @@ fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
         // Its look may need other quantities than the picture's, at its own samples.
         for need in Plan::new(&scene.of_part(item, role)).needs {
             let effect = format!("{part}: {}", need.effect);
-            asks.need_at(need.quantity, Samples::Part, &effect, &scene.key_of_part(item, role, &need.key));
+            let samples = if need.samples == Samples::Seeds { Samples::PartSeeds } else { Samples::Part };
+            asks.need_at(need.quantity, samples, &effect, &scene.key_of_part(item, role, &need.key));
         }
     }
     let effect = format!("object {}", object.name);
@@ -87,8 +91,8 @@ fn acts(object: &ObjectTable, key: &str) -> bool {
     key == "ghosting" || object.motion.is_moved()
 }
 
-/// Lists the keys of an object that say nothing beside its others.
-fn idle_keys(object: &ObjectTable, idle: &mut Idle) {
+/// Lists the keys of an object that say nothing beside its others. `seeds_labels` says that a halo reads its labels.
+fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
     let at = idle.at.clone();
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
     if !object.motion.is_moved() {
@@ -102,7 +106,7 @@ fn idle_keys(object: &ObjectTable, idle: &mut Idle) {
         key("cut", "nothing is cut away: ghosting is 0");
         key("funnel", "nothing is cut away: ghosting is 0");
     }
-    if object.label.is_none() {
+    if object.label.is_none() && !seeds_labels {
         key("labels", "no label is selected, and the function may read none");
     }
 }
