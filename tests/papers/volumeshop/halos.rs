@@ -102,11 +102,13 @@ fn only_parts_that_seed_are_asked() {
 /// Everything is selected, and its ghost and the background seed nothing.
 #[test]
 fn a_moved_selection_has_the_halo_of_a_moved_camera() {
-    let halos = |part: &str| {
+    let halos = |part: &str, focus: &str| {
         format!(
             "[[halo]]\nname = \"a\"\n{part}floor = 0\nexponents = [0.25, 2]\n\
              [[halo]]\nname = \"b\"\n{part}kind = \"emissive\"\nopacity = 0.4\nfloor = 0\n\
-             seed = {{ value = \"opacity\", by = \"curvature\", thickness = \"2 voxels\", direction = {{ toward = 30, width = 90 }} }}\n"
+             seed = {{ value = \"opacity\", by = \"curvature\", thickness = \"2 voxels\", direction = {{ toward = 30, width = 90 }} }}\n\
+             [[halo]]\nname = \"c\"\n{part}floor = 0\nexponents = [0.25, 1]\n\
+             seed = {{ value = \"opacity\", focus = {{ at = [{focus}], inner = 5, falloff = 9 }} }}\n"
         )
     };
     let clear = "[object.ghost.transfer]\nkind = \"regular\"\nnodes = [{ at = 0, color = \"red\", opacity = 0 }]\n";
@@ -115,26 +117,33 @@ fn a_moved_selection_has_the_halo_of_a_moved_camera() {
     let contours = ["[contours]\n", "[contours]\nkappa = \"exact\"\n[sampling]\nkernel = \"bspline\"\n"];
     let about = "center = [14, 15, 15]\n";
     let here = "eye = [-30, 5, 20]\nup = [0, 0, 1]\ntarget = [14, 15, 15]\n";
-    for (motion, back) in [
-        ("move = [2, 3, -1]\n".to_string(), "eye = [-32, 2, 21]\nup = [0, 0, 1]\ntarget = [12, 12, 16]\n"),
+    // The focus stays in the world, so the moved camera has it at T(p).
+    let focus = "[14, 10, 15]";
+    for (motion, back, focus_back) in [
+        (
+            "move = [2, 3, -1]\n".to_string(),
+            "eye = [-32, 2, 21]\nup = [0, 0, 1]\ntarget = [12, 12, 16]\n",
+            "[12, 7, 16]",
+        ),
         (
             format!("rotate = {{ axis = [0, 0, 2], angle = 90 }}\n{about}"),
             "eye = [4, 59, 20]\nup = [0, 0, 1]\ntarget = [14, 15, 15]\n",
+            "[9, 15, 15]",
         ),
     ] {
         for contours in contours {
-            let plain = format!("{look}{contours}[camera]\n{back}{}", halos(""));
-            let (plain, _) = drawn(&with_layers(VOLUME, &plain, 2));
+            let plain = format!("{look}{contours}[camera]\n{back}{}", halos("", focus_back));
+            let (plain, _) = drawn(&with_layers(VOLUME, &plain, 3));
             // Of all parts by opacity, and of the selection alone.
             for part in ["", "object = \"all\"\n"] {
                 let object = format!("[[object]]\nname = \"all\"\n{motion}{clear}");
-                let moved = format!("{look}{contours}[camera]\n{here}{}{object}", halos(part));
-                let (picture, _) = drawn(&with_layers(VOLUME, &moved, 2));
-                let off = (0..2)
+                let moved = format!("{look}{contours}[camera]\n{here}{}{object}", halos(part, focus));
+                let (picture, _) = drawn(&with_layers(VOLUME, &moved, 3));
+                let off = (0..3)
                     .map(|halo| largest_difference(&intensities(&plain, halo), &intensities(&picture, halo)))
                     .fold(difference(&plain, &picture), f64::max);
                 assert!(seen(&plain) > 10.0 && off < 1e-9, "{motion} {part}: {off:e}");
-                assert!((0..2).all(|halo| intensities(&plain, halo).iter().filter(|h| **h > 0.1).count() > 20));
+                assert!((0..3).all(|halo| intensities(&plain, halo).iter().filter(|h| **h > 0.1).count() > 20));
             }
         }
     }
@@ -264,6 +273,75 @@ fn a_ghost_seeds_at_its_original_place() {
     assert_eq!(with("core ghost", "move = [3, 1, 0]\n"), here);
     assert_ne!(with("core", "move = [3, 1, 0]\n"), here);
     assert!(with("core", "move = [1000, 0, 0]\n").iter().all(|h| *h == 0.0));
+}
+
+/// A volume of bytes, 16 voxels a side: the distance to two rods along y, at x = 4 and x = 11, or which of them is nearer.
+fn rods(path: &std::path::Path, of_labels: bool) {
+    let voxel = |i: usize| {
+        let [x, z] = [i % 16, i / 256].map(|at| at as f64);
+        let distance = |to: f64| (x - to).hypot(z - 7.5);
+        let nearer = 1 + u8::from(distance(11.0) < distance(4.0));
+        if of_labels { nearer } else { (200.0 - 30.0 * distance(4.0).min(distance(11.0))).max(0.0) as u8 }
+    };
+    let header = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 16 16 16\nspacings: 1 1 1\nencoding: raw\n\n";
+    std::fs::write(path, [header.as_bytes(), &(0..4096).map(voxel).collect::<Vec<u8>>()].concat()).unwrap();
+}
+
+/// Labels and their names are those of the data that seed; data without labels have none to seed by.
+#[test]
+fn labels_are_those_of_the_data() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| format!("{:?}", folder.path().join(name).display().to_string());
+    rods(&folder.path().join("rods.nrrd"), false);
+    rods(&folder.path().join("labels.nrrd"), true);
+    std::fs::write(folder.path().join("names.csv"), "1,left\n2,right\n").unwrap();
+    let data = path("rods.nrrd");
+    let labels = format!("labels = {}\nlabel_names = {}\n", path("labels.nrrd"), path("names.csv"));
+    let look = "kind = \"regular\"\nnodes = [{ at = 0, color = \"red\", opacity = 0 }, { at = 200, color = \"red\", opacity = 0.01 }]\n";
+    let camera = "[camera]\nprojection = \"orthographic\"\ndirection = [0.2, 0.4, 1]\n";
+    let halo = |part: &str, label: &str| {
+        format!(
+            "{camera}[[halo]]\n{part}exponents = [0.5, 2]\nseed.value = [[60, 0], [150, 1]]\nseed.labels = [{label}]\n\
+             spread.passes = 2\n"
+        )
+    };
+    let of = |volume: &str, rest: &str| intensities(&drawn(&with_layers(volume, rest, 1)).0, 0);
+    let alone =
+        |label: &str| of(&format!("file = {data}\n{labels}"), &format!("[transfer]\n{look}{}", halo("", label)));
+    let (left, right) = (alone("\"left\""), alone("2"));
+    assert!(largest_difference(&left, &right) > 0.2);
+    // The same data as an object's beside a constant volume without labels.
+    let clear = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 0, color = \"red\", opacity = 0 }]\n";
+    let beside = |own: &str, halo: &str| {
+        let object = format!("[[object]]\nname = \"rods\"\nvolume = {data}\n{own}[object.transfer]\n{look}");
+        of("phantom = { name = \"constant\", size = 16 }", &format!("{clear}{halo}{object}"))
+    };
+    let part = "object = \"rods\"\n";
+    assert_eq!([beside(&labels, &halo(part, "1")), beside(&labels, &halo(part, "\"right\""))], [left, right]);
+    // A name that the object's table does not have is told at its key; a scene without labels, too.
+    let faults = |volume: &str, own: &str, halo: &str| {
+        let object = format!("[[object]]\nname = \"rods\"\nvolume = {data}\n{own}[object.transfer]\n{look}");
+        let text = with_layers(volume, &format!("{clear}{halo}{object}"), 1);
+        match drypoint::scene::file::parse(&text, std::path::Path::new("s.toml"), &Default::default()) {
+            Err(faults) => faults.to_string(),
+            Ok(scene) => drypoint::job::Job::load(scene).err().map_or(String::new(), |failures| failures.to_string()),
+        }
+    };
+    let constant = "phantom = { name = \"constant\", size = 16 }";
+    let told = faults(constant, &labels, &halo(part, "\"rihgt\""));
+    assert!(told.contains("rihgt") && told.contains("halo[0].seed.labels[0]") && told.contains("right"), "{told}");
+    let told = faults(constant, "", &halo(part, "1"));
+    assert!(told.contains("halo[0].seed.labels") && told.contains("object[0].labels = "), "{told}");
+    // A halo of all parts takes labels of the main volume; the object's data have none.
+    let main = format!("file = {data}\n{labels}");
+    assert_eq!(faults(&main, "", &halo("", "\"left\"")), "");
+    let all = |own: &str| {
+        let object =
+            format!("[[object]]\nname = \"rods\"\nvolume = {data}\nmove = [0, 0, 1]\n{own}[object.transfer]\n{look}");
+        of(&main, &format!("[transfer]\n{look}{}{object}", halo("", "\"left\"")))
+    };
+    assert_eq!(all(""), alone("\"left\""));
+    assert_ne!(all(&labels), alone("\"left\""));
 }
 
 /// The largest of several sets does not depend on the order of their tables.
