@@ -309,6 +309,7 @@ const FARTHEST: f64 = (1_u64 << 21) as f64;
 mod tests {
     use super::*;
     use crate::file::{Overrides, parse};
+    use crate::quantity::Quantity;
     use crate::shot::{KappaSource, Shot, VolumeFacts};
     use crate::tables::SeedValue;
     use crate::view::View;
@@ -371,6 +372,38 @@ mod tests {
         };
         assert_eq!(regular(""), Halos { list: vec![expected], query: SampleQuery::NORMAL });
         assert_eq!(halos(REGULAR).unwrap(), Halos { list: vec![], query: SampleQuery::VALUE });
+    }
+
+    /// A halo of another part has no seeds in the background, and in a part those of the part's function.
+    #[test]
+    fn each_part_has_the_seeds_of_its_halos() {
+        let objects = "[[object]]\nname = \"a\"\nmove = [1, 0, 0]\n";
+        let table = |part: &str| format!("[[halo]]\nname = \"{part}\"\nobject = \"{part}\"\nopacity = 0.5\n");
+        let tables = ["a", "a ghost", "background"].map(table).concat();
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{REGULAR}{tables}[[halo]]\n{objects}");
+        let scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+        let grid = Grid::with_spacing([9; 3], [1.0; 3]).unwrap();
+        let can_seed = |list: &[HaloSeed]| list.iter().map(HaloSeed::can_seed).collect::<Vec<_>>();
+        let function = Function::nothing();
+        let main = Halos::new(&scene, &Plan::new(&scene), &grid, &function).unwrap();
+        let of_background: Vec<HaloSeed> = main.list.iter().map(|halo| halo.seed.clone()).collect();
+        assert_eq!(can_seed(&of_background), [false, false, true, true]);
+        for ((object, role), expected) in scene.parts().zip([[true, false, false, true], [false, true, false, true]]) {
+            let part = scene.of_part(object, role);
+            let plan = Plan::new(&part);
+            let seeds = PartSeeds::new(&part, &plan, &grid, &function).unwrap().unwrap();
+            assert_eq!((can_seed(&seeds.list), seeds.query), (expected.to_vec(), SampleQuery::NORMAL));
+            assert!(plan.needs_anywhere(Quantity::GradientMagnitudeRange));
+        }
+        let parsed = |text: &str| parse(text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+        let other = parsed(&text.replace("[[halo]]\n[[object]]", "[[object]]")).of_part(0, crate::tables::Role::Ghost);
+        let none = parsed(&text.replace(&tables, &table("background")).replace("[[halo]]\n[[object]]", "[[object]]"));
+        let none = none.of_part(0, crate::tables::Role::Ghost);
+        let seeds = |part: &Scene| PartSeeds::new(part, &Plan::new(part), &grid, &function).unwrap();
+        assert_eq!(
+            (seeds(&other).map(|seeds| can_seed(&seeds.list)), seeds(&none)),
+            (Some(vec![false, true, false]), None)
+        );
     }
 
     /// 8 + 4 + 2 + 1 rays of taps, one of the gradient and one more; with q = 2.5 each distance is rounded up.

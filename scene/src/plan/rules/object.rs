@@ -128,7 +128,7 @@ fn why_idle(scene: &Scene, item: usize) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use crate::file::{Overrides, parse};
-    use crate::plan::Plan;
+    use crate::plan::{Pass, Plan};
     use crate::quantity::Quantity;
     use std::path::Path;
 
@@ -152,6 +152,24 @@ mod tests {
             text.contains("selections") && !text.contains("moved selections") && !text.contains("cut depths"),
             "{text}"
         );
+    }
+
+    /// Seeds of a selection need their quantities there; of data of its own the background needs nothing.
+    #[test]
+    fn halos_need_quantities_of_the_parts_that_seed() {
+        let knee = |own: &str, halo: &str| plan(&format!("[[object]]\nname = \"knee\"\n{own}[[halo]]\n{halo}"));
+        let all = knee("volume = \"b.nrrd\"\n", "");
+        assert!(all.needs_at_seeds(Quantity::GradientMagnitudeRange));
+        assert!(all.to_string().contains("knee: halo 0") && all.has_pass(Pass::HaloSeeds));
+        let own = knee("volume = \"b.nrrd\"\nlabels = \"l.nrrd\"\n", "object = \"knee\"\nseed.labels = [1]\n");
+        assert!(!own.needs_anywhere(Quantity::Gradient) && !own.reads_labels() && own.has_pass(Pass::HaloSeeds));
+        let text = own.to_string();
+        assert!(text.contains("knee: halo 0") && text.contains("halo[0].seed.labels"), "{text}");
+        assert!(own.idle_keys.is_empty(), "{text}");
+        // The background's halo asks nothing of the knee.
+        assert!(!knee("", "object = \"background\"\n").to_string().contains("knee: halo"));
+        let alone = plan("[[halo]]\nobject = \"background\"\n");
+        assert_eq!(alone.idle_keys.iter().map(|idle| idle.key.as_str()).collect::<Vec<_>>(), ["halo[0].object"]);
     }
 
     #[test]
