@@ -5,7 +5,7 @@ use super::inputs::{Inputs, RenderError};
 use super::lattice::IndexRay;
 use super::prepare::{Camera, Fields, Place, prepare_object};
 use super::prepared::Prepared;
-use super::prepared_seeds::PreparedSeeds;
+use super::prepared_seeds::{PreparedSeeds, can_seed_at};
 use super::sample::PreparedObject;
 use crate::field::Field;
 use crate::number::{Mat3, Real};
@@ -16,8 +16,8 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::shot::{
-    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Membership, Object, Part, Role,
-    SelectionParams, placed,
+    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Membership, Part, Role, SelectionParams,
+    placed,
 };
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
@@ -68,15 +68,17 @@ pub(super) struct PreparedPart<'v, R> {
     pub(super) is_of_background: bool,
     /// The seeds of halos among its samples; none: no halo takes it.
     pub(super) seeds: Option<PreparedSeeds<'v>>,
-    /// The bricks of its volume in which its function can show something; none where nothing is skipped.
-    shows: Option<Shows>,
+    /// The bricks of its volume; none where nothing is skipped.
+    bricks: Option<PartBricks>,
 }
 
-/// Which bricks can show something.
-struct Shows {
+/// Which bricks of a part's volume its samples are asked in.
+struct PartBricks {
     bricks: Bricks,
-    /// For each brick, whether it can.
-    can: Vec<bool>,
+    /// For each brick, whether the part's function can show something in it.
+    show: Vec<bool>,
+    /// For each brick, whether h_v of some halo can be above 0 in it.
+    seed: Vec<bool>,
 }
 
 /// A cutaway with what depends on the camera.
@@ -129,8 +131,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             .map(|(part, of_part)| {
                 let selection = &combination.selections[part.object];
                 let motion = selection.motion.filter(|_| part.role == Role::Selection);
-                let prepared = PreparedPart::new(part, motion, (inputs.volume, of_part), camera, fields, counts)?;
-                Ok(PreparedPart { seeds: seeds_of(part, halos, of_part, &prepared.object)?, ..prepared })
+                PreparedPart::new((part, motion), halos, (inputs.volume, of_part), camera, fields, counts)
             })
             .collect();
         let parts = parts?;
@@ -255,8 +256,8 @@ impl<'v, R: Real> PreparedSelection<'v, R> {
 
 impl<'v, R: Real> PreparedPart<'v, R> {
     fn new(
-        part: &Part,
-        motion: Option<DAffine3>,
+        (part, motion): (&Part, Option<DAffine3>),
+        halos: &Halos,
         (main, inputs): (&Volume, &Inputs<'v>),
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
@@ -269,27 +270,38 @@ impl<'v, R: Real> PreparedPart<'v, R> {
         let to_data = volume.grid().axes() * grid.inverse_axes();
         let moved = (grid.axes() != volume.grid().axes()).then(|| Mat3::from_glam(to_data.transpose()));
         let field = fields.of(volume, &part.drawn)?;
-        let shows = part.drawn.skip_empty.then(|| Shows::new(&field, &part.drawn));
+        let bricks = part.drawn.skip_empty.then(|| PartBricks::new(&field, part));
         let place = Place { grid, moved };
         let object = prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
         let is_moved = motion.is_some();
-        Ok(Self { object, selection: part.object, is_moved, is_of_background, seeds: None, shows })
+        let seeds = seeds_of(part, halos, inputs, &object)?;
+        Ok(Self { object, selection: part.object, is_moved, is_of_background, seeds, bricks })
     }
 
     /// Whether a sample in a cell of its volume can show something.
     #[inline]
     pub(super) fn can_show(&self, cell: [usize; 3]) -> bool {
-        self.shows.as_ref().is_none_or(|shows| shows.can[shows.bricks.of_cell(cell)])
+        self.bricks.as_ref().is_none_or(|own| own.show[own.bricks.of_cell(cell)])
+    }
+
+    /// Whether a sample in a cell of its volume can seed a halo.
+    #[inline]
+    pub(super) fn can_seed(&self, cell: [usize; 3]) -> bool {
+        self.bricks.as_ref().is_none_or(|own| own.seed[own.bricks.of_cell(cell)])
     }
 }
 
-impl Shows {
-    /// Looks at the bricks of a field.
-    fn new<R: Real>(field: &Field<'_, R>, object: &Object) -> Self {
-        let bricks = field.bricks();
+impl PartBricks {
+    /// Looks at the bricks of a part's field.
+    fn new<R: Real>(field: &Field<'_, R>, part: &Part) -> Self {
+        let (bricks, function) = (field.bricks(), &part.drawn.function);
         let rounded = |at| R::from_f64(at).to_f64();
-        let can = bricks.ranges.iter().map(|&range| object.function.can_be_visible(range, None, rounded)).collect();
-        Self { bricks, can }
+        let can_show = |&range| function.can_be_visible(range, None, rounded);
+        let seeds = part.seeds.as_ref().map_or(&[][..], |seeds| &seeds.list);
+        let can_seed = |&range| seeds.iter().any(|seed| can_seed_at(seed, function, range, rounded));
+        let show = bricks.ranges.iter().map(can_show).collect();
+        let seed = bricks.ranges.iter().map(can_seed).collect();
+        Self { bricks, show, seed }
     }
 }
 

@@ -2,12 +2,11 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::inputs::{Inputs, RenderError};
-use super::prepared_seeds::PreparedSeeds;
+use super::prepared_seeds::{PreparedSeeds, can_seed_at};
 use crate::volumetric_halos::{PreparedHalo, guard};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{BlendSpace, SampleQuery, SeedValue, Shot};
-use drypoint_scene::transfer::can_be_above_zero;
+use drypoint_scene::shot::{BlendSpace, SampleQuery, Shot};
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// Halos, and what samples are asked for their seeds.
@@ -57,15 +56,7 @@ impl<'v> PreparedHalos<'v> {
                 + grid.axes().y_axis.length() * half.y
                 + grid.axes().z_axis.length() * half.z;
             halos.list.iter().zip(&seeds.list).any(|(params, seeding)| {
-                let by_value = match &params.seed.value {
-                    None => true,
-                    Some(SeedValue::Opacity) => object.function.can_be_visible(range, None, rounded),
-                    Some(SeedValue::Nodes(nodes)) => {
-                        let (at, h): (Vec<f64>, Vec<f64>) = nodes.iter().map(|&[at, h]| (at, h)).unzip();
-                        can_be_above_zero(&at, &h, range, rounded)
-                    }
-                };
-                by_value
+                can_seed_at(&params.seed, &object.function, range, rounded)
                     && seeding.focus.as_ref().is_none_or(|focus| focus.can_reach(centre, radius))
                     && seeding.labels.as_ref().is_none_or(|wanted| {
                         let labels = seeds.labels.as_ref();

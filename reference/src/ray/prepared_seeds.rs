@@ -4,7 +4,8 @@
 use super::inputs::{Inputs, RenderError};
 use crate::labels::Labels;
 use crate::volumetric_halos::seed::Seeding;
-use drypoint_scene::shot::{HaloParams, LabelLookup, SampleQuery};
+use drypoint_scene::shot::{HaloParams, HaloSeed, LabelLookup, SampleQuery, SeedValue};
+use drypoint_scene::transfer::{Function, can_be_above_zero};
 
 /// The seeding of all halos, and what samples are asked for it.
 pub(super) struct PreparedSeeds<'v> {
@@ -46,5 +47,22 @@ impl<'v> PreparedSeeds<'v> {
         let reads_places = any(|seeding| seeding.focus.is_some());
         let rest = over_two.map_or(query, |first| query.without(first));
         Ok(Self { list, query, rest, reads_opacity, reads_places, labels })
+    }
+}
+
+/// Whether h_v can be above 0 at a value of a range; `rounded` is a value in the number type of samples.
+pub(super) fn can_seed_at(
+    seed: &HaloSeed,
+    function: &Function,
+    range: [f64; 2],
+    rounded: impl Fn(f64) -> f64 + Copy,
+) -> bool {
+    match &seed.value {
+        None => true,
+        Some(SeedValue::Opacity) => function.can_be_visible(range, None, rounded),
+        Some(SeedValue::Nodes(nodes)) => {
+            let (at, h): (Vec<f64>, Vec<f64>) = nodes.iter().map(|&[at, h]| (at, h)).unzip();
+            can_be_above_zero(&at, &h, range, rounded)
+        }
     }
 }

@@ -99,6 +99,21 @@ fn only_parts_that_seed_are_asked() {
     assert!(0 < core && core < plain / 2, "{core} of {plain}");
 }
 
+/// Bricks that can seed nothing are passed over, which no bit shows.
+#[test]
+fn skipped_bricks_show_nowhere() {
+    let volume = "phantom = { name = \"tube-tree\", size = 40 }";
+    let objects = "[[object]]\nname = \"all\"\nmove = [6, 2, 0]\nrotate = { angle = 20 }\nghosting = 0.3\n";
+    let with = |skip: &str| {
+        let text = format!("{LIT}{THREE}{objects}[sampling]\nskip_empty = {skip}\n");
+        drawn(&with_layers(volume, &text.replace("at = 20", "at = 100"), 3))
+    };
+    let ((skipped, few), (whole, all)) = (with("true"), with("false"));
+    assert_eq!(skipped, whole);
+    assert!((0..3).all(|halo| intensities(&whole, halo).iter().any(|h| *h > 0.05)));
+    assert!(0 < few.halo_samples && few.halo_samples < all.halo_samples, "{}", few.halo_samples);
+}
+
 /// Everything is selected, and its ghost and the background seed nothing.
 #[test]
 fn a_moved_selection_has_the_halo_of_a_moved_camera() {

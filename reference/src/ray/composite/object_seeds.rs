@@ -73,9 +73,9 @@ impl<R: Real> ObjectRay<'_, '_, R> {
         for part in self.parts.iter_mut().filter(|part| contains(part.range, k)) {
             let Some(seeds) = &part.part.seeds else { continue };
             let set = selection_set(part.part, self.combination, &self.selections, &shares);
-            let Some((sample, membership)) = part.member(k, set, |_| true, &mut here, &self.behind, counts) else {
-                continue;
-            };
+            let can_seed = |cell: [usize; 3]| part.part.can_seed(cell);
+            let member = part.member(k, set, can_seed, &mut here, &self.behind, counts);
+            let Some((sample, membership)) = member else { continue };
             let SeedScratch { of_set, h, .. } = &mut *scratch;
             part.evaluator.seed(sample, (seeds, &prepared.eye_axes), h, counts, |halo, s| of_set[halo] = s);
             scratch.join(membership.to_f64(), 1.0);
