@@ -292,6 +292,7 @@ impl Job {
         };
         if job.draws_volume() && !job.scene.objects.is_empty() {
             job.objects = Objects::load(&job, &given)?;
+            job.plan.warnings.extend(job.objects.warnings(&job.scene));
         }
         // Those of a part are the picture's.
         if main.is_none() {

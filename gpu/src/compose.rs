@@ -13,7 +13,7 @@ use crate::{
 };
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, Shot};
+use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, SampleQuery, Shot};
 use drypoint_scene::transfer::Function;
 
 /// The share of a gradient that is rounding ([PREC-3]).
@@ -79,8 +79,9 @@ fn of_volume(
     if clips {
         ray::add_clip(&mut shader, &shot.clipping, styles.len());
     }
-    // Quantities of layers `first.*` are measured at every visible sample.
-    let query = object.first.map_or(object.query, |first| object.query.and(first));
+    // Quantities of layers `first.*` and of looks that the volume meets are measured at every visible sample.
+    let beyond = [object.first, object.meeting].into_iter().flatten();
+    let query = beyond.fold(object.query, SampleQuery::and);
     let own = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
     let has_halos = !shot.halos.list.is_empty();
     let query = if has_halos { own.and(shot.halos.query) } else { own };

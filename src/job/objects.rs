@@ -106,6 +106,15 @@ impl Objects {
         Ok(Self { parts, selections, facts, pictures })
     }
 
+    /// Flaws of objects: those that select nothing.
+    pub(super) fn warnings(&self, scene: &Scene) -> impl Iterator<Item = String> {
+        // A selection by value has values between voxels, too.
+        let is_empty =
+            |(table, facts): &(&ObjectTable, &SelectionFacts)| table.value.is_none() && facts.index_box.is_none();
+        let empty = scene.objects.iter().zip(&self.facts).filter(is_empty);
+        empty.map(|(object, _)| format!("the object {:?} selects nothing", object.name))
+    }
+
     /// Adds the objects to the shot of a scene that differs from the job's in its knobs alone.
     pub(super) fn add_to(
         &self,
@@ -170,8 +179,12 @@ impl ObjectPart {
         if scene.has_own_shading(self.object, self.role) {
             // Its table has been read.
             of_part.shading = self.job.scene.shading.clone();
+        } else if let (Some(shading), Some(read)) = (&mut of_part.shading, &self.job.scene.shading) {
+            // The picture itself may be lit by no table.
+            shading.table = read.table.clone();
         }
         let mut plan = plan_for(&of_part, RenderTarget::Picture);
+        plan.add_meetings(scene, self.object, self.role);
         plan.settle(&of_part, is_integer(&self.job.volume));
         (of_part, plan)
     }

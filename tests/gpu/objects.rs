@@ -140,8 +140,10 @@ fn intersections() {
     let half = object("a", "value = [[0, 0.5], [255, 0.5]]\nmove = [2, 1, 0]");
     let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0.2, -1, 0.1]\nspace = \"index\"\napplies = [\"background\"]\n\
                 [camera]\ndirection = [0, 1, 0]\n";
+    // A band of values between those of any two voxels.
+    let between = object("b", "value = [[101.3, 0], [101.4, 1], [101.5, 0]]\nmove = [3, 0, 0]");
     compare(vec![
-        ("a colour, and the mean", shells(&(near.clone() + &color + &mean))),
+        ("a colour, and the mean", shells(&(near.clone() + &between + &color + &mean))),
         ("on a cut", shells(&(half + &mean + clip))),
         ("a picture, by products, of styles", styled(&(PRODUCT.to_owned() + &near + &from_picture + &mean))),
     ]);

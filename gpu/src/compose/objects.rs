@@ -7,13 +7,12 @@ use crate::place::Place;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::objects::{self, DrawnPart};
 use crate::{GpuError, Inputs, PartInputs, Precision, ray, volumeshop};
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Combination, Cut, Membership, Part, Role, Shot, placed};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Anatomy;
 
-/// Where the parts of a shot are drawn; those whose selection is empty are left out.
+/// Where the parts of a shot are drawn; those whose selection has no members are left out.
 #[derive(Default)]
 pub(crate) struct PlacesOfObjects(Vec<PlacedPart>);
 
@@ -22,7 +21,7 @@ struct PlacedPart {
     part: usize,
     /// The place of its data.
     place: Place,
-    /// The place of the memberships of its selection, with the box of [VS-2].
+    /// The place of the memberships of its selection, with the box in which there can be members.
     selection: Place,
 }
 
@@ -37,8 +36,8 @@ impl PlacesOfObjects {
         }
         let own = Place::own(shot, inputs.volume.grid());
         let placed = combination.parts.iter().zip(&given.parts).enumerate().filter_map(|(i, (part, of_part))| {
-            let index_box = combination.selections[part.object].index_box?;
-            Some(PlacedPart::new((i, part), index_box, combination, (inputs, of_part), &own))
+            let has_members = volumeshop::has_members(&combination.selections[part.object]);
+            has_members.then(|| PlacedPart::new((i, part), combination, (inputs, of_part), &own))
         });
         Ok(Self(placed.collect::<Result<_, _>>()?))
     }
@@ -47,7 +46,6 @@ impl PlacesOfObjects {
 impl PlacedPart {
     fn new(
         (i, part): (usize, &Part),
-        index_box: [DVec3; 2],
         combination: &Combination,
         (inputs, of_part): (&Inputs<'_>, &PartInputs<'_>),
         own: &Place,
@@ -63,10 +61,16 @@ impl PlacedPart {
             (Membership::Everything | Membership::Value(_), _) => moved(&of_data)?,
         };
         let axes = memberships.axes();
+        let in_data = own.beside(memberships, axes);
+        // Of a selection by value values between voxels count, too.
+        let index_box = match selection.membership {
+            Membership::Value(_) => in_data.index_box,
+            Membership::Everything | Membership::Voxels => selection.index_box.unwrap_or(in_data.index_box),
+        };
         Ok(Self {
             part: i,
             place: own.beside(moved(&of_data)?, data.grid().axes()),
-            selection: Place { index_box, ..own.beside(memberships, axes) },
+            selection: Place { index_box, ..in_data },
         })
     }
 

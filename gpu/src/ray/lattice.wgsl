@@ -42,13 +42,11 @@ fn has_sample(ray: Ray, k: i32) -> bool {
     return k >= i32(params.first_plane) && in_box(position(ray, k));
 }
 
-// The planes at which a ray comes into the box and leaves it, counted from the anchor, with their fractions; the first is the
+// The planes at which a ray comes into a box and leaves it, counted from the anchor, with their fractions; the first is the
 // larger one if it misses the box.
-fn through_box(ray: Ray) -> vec2<real> {
+fn through_box(ray: Ray, low: vec3<real>, high: vec3<real>) -> vec2<real> {
     var near = real(-4.0e6);
     var far = real(4.0e6);
-    let low = box_low();
-    let high = box_high();
     for (var axis = 0; axis < 3; axis++) {
         let o = ray.origin[axis];
         let d = ray.along[axis] * ray.depth_step;
@@ -68,7 +66,7 @@ fn through_box(ray: Ray) -> vec2<real> {
 
 // The samples inside the box, as the closed range x..=y; none where x > y. Inside is decided on the position itself.
 fn samples_inside(ray: Ray) -> vec2<i32> {
-    let through = through_box(ray);
+    let through = through_box(ray, box_low(), box_high());
     if (!(through.x <= through.y + 2.0)) {
         return vec2(1, 0);
     }

@@ -6,7 +6,7 @@ use crate::number::{DOUBLE, SINGLE};
 use crate::shader::{Data, Shader, module};
 use crate::{Gpu, GpuError, Precision};
 use drypoint_scene::math;
-use drypoint_scene::shot::{Cutaway, Shot};
+use drypoint_scene::shot::Shot;
 
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
@@ -58,13 +58,7 @@ impl Funnel {
 
 /// The funnels of a shot, of those cutaways that have one.
 fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
-    let cutaways = shot.combination.iter().flat_map(|combination| {
-        let is_drawn = |cutaway: &&Cutaway| {
-            let part = &combination.parts[cutaway.part];
-            combination.selections[part.object].index_box.is_some()
-        };
-        combination.cutaways.iter().filter(is_drawn)
-    });
+    let cutaways = shot.combination.iter().flat_map(super::cutaways);
     let smooth = cutaways.filter(|cutaway| cutaway.funnel > 0.0);
     smooth.map(|cutaway| Funnel { sigma: cutaway.funnel, size: shot.view.size })
 }

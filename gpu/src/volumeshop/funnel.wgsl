@@ -22,10 +22,11 @@ fn plane_at_depth(ray: Ray, depth: real) -> real {
 // of the object where the ray hits it and it is farther.
 fn funnel_end(funnel: i32, plane: real) -> real {
     let map = funnel_maps[(funnel * HEIGHT + funnel_pixel.y) * WIDTH + funnel_pixel.x];
-    let through = through_box(own_ray);
+    let through = through_box(own_ray, box_low(), box_high());
     if (!(map.x > 1.0e-6) || through.x > through.y) {
         return plane;
     }
     let z_in = depth_of_plane(own_ray, max(through.x, params.near_steps));
-    return max(plane_at_depth(own_ray, z_in + min(2.0 * map.x, 1.0) * (map.y - z_in)), plane);
+    // Rounding does not decide whether a sample at the end itself lies before it.
+    return max(plane_at_depth(own_ray, z_in + min(2.0 * map.x, 1.0) * (map.y - z_in)), plane) - 1.0 / 1024.0;
 }

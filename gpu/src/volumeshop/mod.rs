@@ -9,7 +9,9 @@ use crate::number::BILINEAR;
 use crate::shader::{Constant, Data, Module, Shader, module};
 use drypoint_scene::glam::DMat3;
 use drypoint_scene::lighting::LightingTable;
-use drypoint_scene::shot::{Lighting, LightingParams, Material, Shot};
+use drypoint_scene::shot::{
+    Combination, Cut, Cutaway, Lighting, LightingParams, Material, Membership, SelectionParams, Shot,
+};
 
 /// The binding of the cells of a lighting table.
 const LIGHTING: u32 = 24;
@@ -50,9 +52,22 @@ pub(crate) fn add_motion(shader: &mut Shader, moved: DMat3) {
     }
 }
 
+/// Whether a selection can have members.
+pub(crate) fn has_members(selection: &SelectionParams) -> bool {
+    selection.index_box.is_some() || matches!(selection.membership, Membership::Value(_))
+}
+
+/// The cutaways of a shot that have a depth.
+fn cutaways(combination: &Combination) -> impl Iterator<Item = &Cutaway> {
+    combination.cutaways.iter().filter(|cutaway| {
+        let selection = &combination.selections[combination.parts[cutaway.part].object];
+        has_members(selection) && (cutaway.cut == Cut::Object || selection.index_box.is_some())
+    })
+}
+
 /// Whether a shot has a smooth cutaway.
 pub(crate) fn has_funnel(shot: &Shot) -> bool {
-    shot.combination.iter().flat_map(|combination| &combination.cutaways).any(|cutaway| cutaway.funnel > 0.0)
+    shot.combination.iter().flat_map(cutaways).any(|cutaway| cutaway.funnel > 0.0)
 }
 
 fn cells(table: &LightingTable) -> Vec<f64> {

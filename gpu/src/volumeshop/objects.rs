@@ -36,14 +36,13 @@ pub(crate) fn add(
     parts: &[DrawnPart],
     (shot, scales): (&Shot, &Scales),
 ) {
-    let is_drawn = |part: usize| parts.iter().any(|drawn| drawn.part == part);
     shader.add(&[NUMBER, module!("sets"), module!("background")]);
     shader.add(&[match combination.fuzzy {
         Fuzzy::Zadeh => module!("zadeh"),
         Fuzzy::Product => module!("product"),
     }]);
     shader.stages.begin_part.push("aim_objects");
-    let cutaways: Vec<_> = combination.cutaways.iter().filter(|cutaway| is_drawn(cutaway.part)).collect();
+    let cutaways: Vec<_> = super::cutaways(combination).collect();
     if !cutaways.is_empty() {
         shader.add(&[module!("ghosting"), enhancement(&shot.objects[0].material)]);
     }

@@ -1,4 +1,4 @@
-// A selection on a ray: the samples in its box ([VS-2]).
+// A selection on a ray: the samples at which there can be members ([VS-2]).
 
 var<private> selection_ray: Ray;
 var<private> selection_range: vec2<i32>;
@@ -12,8 +12,8 @@ fn is_in_selection(k: i32) -> bool {
     return selection_range.x <= k && k <= selection_range.y;
 }
 
-// The plane at which the ray leaves the box, counted from the anchor, with its fraction; -NOT_MET if it misses it ([VS-7]).
+// The plane at which the ray leaves the box of the selection, counted from the anchor, with its fraction; -NOT_MET if it misses it ([VS-7]).
 fn far_side() -> real {
-    let through = through_box(selection_ray);
+    let through = through_box(selection_ray, selected_low(), selected_high());
     return select(real(-NOT_MET), through.y, through.x <= through.y);
 }

@@ -1,17 +1,19 @@
 //! Pictures of intersection transfer functions ([VS-4]).
 
-use super::read_image;
+use super::{decode, has_alpha};
 use crate::OutputError;
 use drypoint_scene::color::unpremultiply;
 use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::memory;
 use std::path::Path;
 
 /// Reads a picture as straight linear colours.
 ///
 /// # Errors
-/// Same errors as [`read_image`]; [`OutputError::NoColor`]; [`OutputError::Malformed`] for a value that is not finite.
+/// Same errors as [`read_image`](super::read_image); [`OutputError::NoColor`]; [`OutputError::Malformed`] for a value that is not finite.
 pub fn read_intersection_picture(path: &Path) -> Result<IntersectionPicture, OutputError> {
-    let image = read_image(path)?;
+    let bytes = memory::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
+    let image = decode(&bytes, path)?;
     let no_color = || OutputError::NoColor { name: path.display().to_string(), found: image.names() };
     let colors = image.colors().filter(|_| image.width > 0 && image.height > 0).ok_or_else(no_color)?;
     let pixel = |i: usize| {
@@ -23,5 +25,35 @@ pub fn read_intersection_picture(path: &Path) -> Result<IntersectionPicture, Out
         let fault = "it has values that are not finite".into();
         return Err(OutputError::Malformed { path: path.into(), field: "color".into(), fault });
     }
-    Ok(IntersectionPicture { size: [image.width, image.height], pixels, has_opacity: colors.alpha.is_some() })
+    Ok(IntersectionPicture { size: [image.width, image.height], pixels, has_opacity: has_alpha(&bytes, &image) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use png::{BitDepth, ColorType, Encoder};
+
+    /// Only a file that says an opacity replaces that of the preset.
+    #[test]
+    fn a_picture_without_alpha_has_no_opacity() {
+        let folder = tempfile::tempdir().unwrap();
+        for (color, bytes, transparent, expected) in [
+            (ColorType::Rgb, &[10, 20, 30][..], None, false),
+            (ColorType::Grayscale, &[10], None, false),
+            (ColorType::Rgba, &[10, 20, 30, 255], None, true),
+            (ColorType::GrayscaleAlpha, &[10, 255], None, true),
+            (ColorType::Rgb, &[10, 20, 30], Some(&[0, 10, 0, 20, 0, 30][..]), true),
+        ] {
+            let path = folder.path().join("meeting.png");
+            let mut encoder = Encoder::new(std::fs::File::create(&path).unwrap(), 1, 1);
+            encoder.set_color(color);
+            encoder.set_depth(BitDepth::Eight);
+            if let Some(color) = transparent {
+                encoder.set_trns(color);
+            }
+            encoder.write_header().unwrap().write_image_data(bytes).unwrap();
+            let picture = read_intersection_picture(&path).unwrap();
+            assert_eq!(picture.has_opacity, expected, "{color:?}");
+        }
+    }
 }

@@ -90,7 +90,7 @@ pub fn read_image(path: &Path) -> Result<Image, OutputError> {
 /// # Errors
 /// Same errors as [`read_image`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
-    if bytes.starts_with(&[0x89, b'P', b'N', b'G']) {
+    if bytes.starts_with(&PNG) {
         png::decode(bytes, path)
     } else if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
         exr::decode(bytes, path)
@@ -98,6 +98,14 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
         Err(OutputError::UnknownFormat { path: path.into(), found: bytes[..bytes.len().min(8)].to_vec() })
     }
 }
+
+/// Whether a file says anything of opacity; `image` is what it was decoded to.
+fn has_alpha(bytes: &[u8], image: &Image) -> bool {
+    if bytes.starts_with(&PNG) { png::has_alpha(bytes) } else { image.channel("A").is_some() }
+}
+
+/// The first bytes of a PNG.
+const PNG: [u8; 4] = [0x89, b'P', b'N', b'G'];
 
 /// Refuses pixels that no file of that length can hold. `ratio` is the largest expansion of a byte of the file.
 fn check_claim(claimed: Option<u64>, ratio: u64, bytes: &[u8], path: &Path) -> Result<(), OutputError> {

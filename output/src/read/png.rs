@@ -62,6 +62,15 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     Ok(Image { width, height, channels })
 }
 
+/// Whether a PNG says anything of opacity: an alpha channel, or a transparent colour.
+pub(super) fn has_alpha(bytes: &[u8]) -> bool {
+    let reader = Decoder::new(Cursor::new(bytes)).read_info();
+    reader.is_ok_and(|reader| {
+        let info = reader.info();
+        matches!(info.color_type, ColorType::GrayscaleAlpha | ColorType::Rgba) || info.trns.is_some()
+    })
+}
+
 /// Returns the bytes of the unpacked rows, with a filter byte a row; none if the number overflows.
 fn raw_bytes(info: &Info<'_>) -> Option<u64> {
     let bits = u64::from(info.width) * info.color_type.samples() as u64 * info.bit_depth as u64;

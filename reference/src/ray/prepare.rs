@@ -211,6 +211,7 @@ pub(super) fn prepare_object<'a, R: Real>(
         query: object.query,
         needs: Needs::Anything,
         first: object.first,
+        meeting: object.meeting,
         gradient_range,
         reference_length: object.reference_length,
         outside: object.reconstruction.outside,

@@ -39,6 +39,8 @@ pub(super) struct PreparedSelection<'v, R> {
     pub(super) membership: PreparedMembership<'v, R>,
     /// The box of [VS-2], in the index space of the memberships' grid; none: nothing is selected.
     pub(super) index_box: Option<[DVec3; 2]>,
+    /// The box in which there can be members: of a selection by value that of the data, as values between voxels count, too.
+    pub(super) members: Option<[DVec3; 2]>,
     /// The grid of the memberships at the original place.
     pub(super) here: Grid,
     /// The grid of the memberships where M moves it; none: the object is not moved.
@@ -211,7 +213,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
         self.selections
             .iter()
-            .any(|s| through(&s.here, s.index_box) || s.there.as_ref().is_some_and(|grid| through(grid, s.index_box)))
+            .any(|s| through(&s.here, s.members) || s.there.as_ref().is_some_and(|grid| through(grid, s.members)))
             || self.cutaways.iter().any(in_funnel)
     }
 
@@ -244,9 +246,11 @@ impl PreparedFunnel {
 impl<'v, R: Real> PreparedSelection<'v, R> {
     fn new(params: &SelectionParams, here: Grid, membership: PreparedMembership<'v, R>) -> Result<Self, RenderError> {
         let there = params.motion.map(|motion| placed(&here, Some(motion)).map_err(|_| RenderError::Motion));
+        let by_value = matches!(membership, PreparedMembership::Value(_));
         Ok(Self {
             membership,
             index_box: params.index_box,
+            members: if by_value { Some(here.index_box()) } else { params.index_box },
             there: there.transpose()?,
             here,
             takes: !params.has_own_volume,

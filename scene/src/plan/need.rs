@@ -22,6 +22,8 @@ pub enum Samples {
     Part,
     /// The samples of a selection or ghost that are asked for seeds of halos.
     PartSeeds,
+    /// The samples at which an intersection is shaded by the set with the larger μ ([VS-4]).
+    Meetings,
 }
 
 /// A quantity that an effect needs.
@@ -46,7 +48,7 @@ impl Need {
     /// Returns the work that the need adds to a picture.
     pub fn adds(&self) -> &'static str {
         match self.samples {
-            Samples::Visible | Samples::Part => self.quantity.adds(),
+            Samples::Visible | Samples::Part | Samples::Meetings => self.quantity.adds(),
             Samples::First => self.quantity.adds_at_first(),
             Samples::Seeds | Samples::PartSeeds => self.quantity.adds_at_seeds(),
         }
@@ -134,9 +136,14 @@ impl Plan {
         self.needs_at(quantity, &[Samples::Seeds])
     }
 
+    /// Whether a look that the volume meets needs that quantity where it is shaded by the volume.
+    pub fn needs_at_meetings(&self, quantity: Quantity) -> bool {
+        self.needs_at(quantity, &[Samples::Meetings])
+    }
+
     /// Whether an effect of the scene needs that quantity at any sample.
     pub fn needs_anywhere(&self, quantity: Quantity) -> bool {
-        self.needs_at(quantity, &[Samples::Visible, Samples::First, Samples::Seeds])
+        self.needs_at(quantity, &[Samples::Visible, Samples::First, Samples::Seeds, Samples::Meetings])
     }
 
     /// Whether all pixels have equally many rays, whatever they show ([RAY-7]).

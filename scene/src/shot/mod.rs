@@ -105,6 +105,8 @@ pub struct Object {
     pub query: SampleQuery,
     /// The query of the first visible sample of a ray beyond that, for layers `first.*`; none: nothing.
     pub first: Option<SampleQuery>,
+    /// The query of a sample beyond that where it shades a look that it meets ([VS-4]); none: nothing.
+    pub meeting: Option<SampleQuery>,
     /// How samples are coloured.
     pub material: Material,
 }
@@ -258,6 +260,7 @@ impl Object {
                 .then_some(scene.volume.gradient_range),
             normal: NormalDirection::new(sampling.normal, scene.volume.outside),
             turn: Turn::new(sampling.normal, scene.contours.as_ref().map_or(SignFlip::TwoSided, |c| c.sign_flip)),
+            meeting: query::of_meetings(scene, plan, query),
             query,
             first,
             material: Material::new(scene, &function, facts.grid, view)?,

@@ -100,6 +100,18 @@ pub(super) fn of_samples(scene: &Scene, plan: &Plan, function: &Function) -> (Sa
     (all, (first.gradient || first.hessian || first.kappa != KappaSource::None).then_some(first))
 }
 
+/// What samples are asked for beyond their own query where they shade looks that they meet; none: nothing.
+pub(super) fn of_meetings(scene: &Scene, plan: &Plan, own: SampleQuery) -> Option<SampleQuery> {
+    let asked = SampleQuery {
+        gradient: plan.needs_at_meetings(Quantity::Gradient),
+        hessian: plan.needs_at_meetings(Quantity::Hessian),
+        principal: false,
+        kappa: kappa(scene, &|quantity| plan.needs_at_meetings(quantity)),
+    };
+    let beyond = asked.without(own);
+    (beyond != asked.without(asked)).then_some(beyond)
+}
+
 /// The query of samples that are asked for their seeds ([HALO-3]): without a normal a sample is no seed.
 pub(super) fn of_seeds(scene: &Scene, plan: &Plan, function: &Function) -> SampleQuery {
     let by_opacity = halos_in_effect(scene).any(|(_, halo)| halo.seed.is_by_opacity());

@@ -41,7 +41,7 @@ pub(crate) static TABLE: Table<MeshTable> = Table {
         if check.sound(&["scale", "rotate", "matrix"]) && mesh.motion.is_singular() {
             let key = if mesh.motion.matrix.is_some() { "matrix" } else { "scale" };
             let what = "the motion of the mesh is singular: it flattens the mesh".into();
-            let remedy = "give it a linear part with an inverse: no factor of 0 beside the others".into();
+            let remedy = "give it an inverse: no factor may be 0, or 10¹² times smaller than another".into();
             check.fault_in(key, Problem::Contradiction { what, remedy });
         }
     },

@@ -13,6 +13,9 @@ use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersecti
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, IntersectionPaint};
 
+/// The share of a step by which a sample has to lie before the end of a funnel.
+const SLACK: f64 = 1.0 / 1024.0;
+
 /// The objects on a ray.
 pub(super) struct ObjectRay<'p, 'v, R: Real> {
     pub(super) combination: &'p PreparedCombination<'v, R>,
@@ -140,6 +143,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
                 let faded = self.faded(k, attributes);
                 let weight = shares.background;
                 let mu = fuzzy::intersection(fuzzy, weight, alpha * faded);
+                let attributes = self.behind.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
                 of_background = Some(FoundPart { sample, attributes, rgb, weight, mu, faded });
             }
         }
@@ -259,21 +263,24 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
 
     /// The alternative set where a selection meets something (eq. 7).
     fn meeting(
-        &self,
+        &mut self,
         intersection: &PreparedIntersection<'_>,
         of_background: Option<&FoundPart<R>>,
         counts: &mut Counts,
     ) -> Option<ObjectSet<R>> {
         let (params, fuzzy) = (&intersection.params, self.combination.fuzzy);
-        let selection = self.found[params.selection].as_ref()?;
-        let other = params.ghost.map_or(of_background, |ghost| self.found[ghost].as_ref())?;
+        let selection = self.found[params.selection]?;
+        let other = params.ghost.map_or(of_background.copied(), |ghost| self.found[ghost])?;
         if fuzzy::intersection(fuzzy, other.mu, selection.mu) <= R::ZERO {
             return None;
         }
         // Unshaded colours and opacities, both by the attributes of the set with the larger μ; a tie is the selection's.
         let wins = selection.mu >= other.mu;
-        let winner = if wins { selection } else { other };
-        let attributes = winner.attributes;
+        let attributes = match (wins, params.ghost) {
+            (true, _) => self.parts[params.selection].evaluator.shading(&selection, counts),
+            (false, Some(ghost)) => self.parts[ghost].evaluator.shading(&other, counts),
+            (false, None) => self.behind.shading(&other, counts),
+        };
         let of_selection =
             self.parts[params.selection].evaluator.unlit(selection.sample, [selection.attributes, attributes], counts);
         let asked = [other.attributes, attributes];
@@ -315,7 +322,11 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let d = match &cutaway.funnel {
             None => d,
             Some(funnel) => match through_box(lattice.line(), prepared.object.grid.index_box()) {
-                Some([z_in, _]) => funnel.depth(point, z_in.max(prepared.near_of(&lattice)), d),
+                // Rounding does not decide whether a sample at d̃ itself lies before it.
+                Some([z_in, _]) => {
+                    let end = funnel.depth(point, z_in.max(prepared.near_of(&lattice)), d);
+                    end - SLACK * lattice.depth_step.to_f64()
+                }
                 None => d,
             },
         };

@@ -183,6 +183,15 @@ pub(in crate::ray) fn depth_of_part<R: Real>(
     PartRay::new(part, &ray, prepared, &pixel).depth(selection, &ray, cut, counts)
 }
 
+impl<R: Real> FieldEvaluator<'_, '_, R> {
+    /// The attributes of a sample that shades a look that it meets ([VS-4]).
+    pub(super) fn shading(&mut self, found: &FoundPart<R>, counts: &mut Counts) -> SampleAttributes<R> {
+        let Some(beyond) = self.object.meeting else { return found.attributes };
+        let attributes = self.evaluate(found.sample, beyond, found.attributes, counts);
+        self.cut_at(found.sample.k).map_or(attributes, |cut| cut.attributes(attributes))
+    }
+}
+
 /// A sample of the background's volume, looked up at most once.
 pub(super) struct Here<R> {
     pub(super) k: i64,

@@ -20,7 +20,7 @@ pub(super) struct SelectionRay {
 pub(super) struct PlacedSelection {
     /// The ray in the index space of the memberships.
     pub(super) ray: Option<IndexRay<f64>>,
-    /// The samples in the box of [VS-2].
+    /// The samples at which there can be members.
     pub(super) range: [i64; 2],
 }
 
@@ -28,7 +28,7 @@ impl SelectionRay {
     pub(super) fn new<R: Real>(selection: &PreparedSelection<'_, R>, prepared: &Prepared<'_, R>, pixel: &Ray) -> Self {
         let placed = |grid: Option<&Grid>| {
             let ray = grid.map(|grid| IndexRay::<f64>::new(pixel, &prepared.view, &prepared.lattice, grid));
-            let range = ray.zip(selection.index_box).map(|(ray, ends)| ray.inside(ends.map(Vec3::from_glam)));
+            let range = ray.zip(selection.members).map(|(ray, ends)| ray.inside(ends.map(Vec3::from_glam)));
             PlacedSelection { ray, range: range.unwrap_or(EMPTY) }
         };
         Self { here: placed(Some(&selection.here)), there: placed(selection.there.as_ref()) }

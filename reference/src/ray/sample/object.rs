@@ -32,6 +32,8 @@ pub(crate) struct PreparedObject<'v, R> {
     pub(crate) needs: Needs,
     /// The query of the first visible sample of a ray beyond that, for the layers `first.*`; none: nothing.
     pub(crate) first: Option<SampleQuery>,
+    /// The query of a sample beyond that where it shades a look that it meets; none: nothing.
+    pub(crate) meeting: Option<SampleQuery>,
     /// lo and hi − lo of [VAL-2], times the power of two of [SPACE-4]; none where nothing reads |g|.
     pub(crate) gradient_range: Option<(R, R)>,
     /// Δ₀ in world units.

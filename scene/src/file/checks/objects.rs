@@ -13,6 +13,7 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
         return;
     }
     names(&scene.objects, check);
+    funnels(scene, check);
     labels(scene, check);
     references(scene, check);
     intersections(scene, check);
@@ -31,6 +32,19 @@ fn names(objects: &[ObjectTable], check: &mut Check) {
         };
         if let Some((what, remedy)) = problem {
             check.fault_in(&format!("object[{i}].name"), Problem::Contradiction { what, remedy: remedy.into() });
+        }
+    }
+}
+
+/// A funnel wider than the picture cuts it everywhere, and its map has no end.
+fn funnels(scene: &Scene, check: &mut Check) {
+    let height = scene.picture.size[1] as f64;
+    for (i, object) in scene.objects.iter().enumerate() {
+        let sigma = object.funnel.and_then(|funnel| scene.picture.in_pixels(funnel)).filter(|&sigma| sigma > height);
+        if let Some(sigma) = sigma {
+            let what = format!("a funnel of {sigma} px is wider than the picture of {height} px");
+            let remedy = "give at most the height of the picture".into();
+            check.fault_in(&format!("object[{i}].funnel"), Problem::Contradiction { what, remedy });
         }
     }
 }
@@ -70,6 +84,13 @@ fn references(scene: &Scene, check: &mut Check) {
     let all: Vec<_> = of_clips.chain(of_halos).filter(|(_, part)| !known.contains(part)).collect();
     let known: Vec<String> = known.iter().map(ToString::to_string).collect();
     for (key, part) in all {
+        if let PartName::Ghost(name) = part
+            && scene.objects.iter().any(|object| object.name == *name)
+        {
+            let what = format!("{name:?} is not moved: it has no ghost");
+            check.fault_in(&key, Problem::Contradiction { what, remedy: format!("move {name:?}, or name the object") });
+            continue;
+        }
         unknown(&key, "part", &part.to_string(), known.clone(), check);
     }
 }
@@ -127,6 +148,12 @@ mod tests {
     fn contradictions_of_objects_are_told_with_their_keys() {
         let object = |rest: &str| format!("[[object]]\nname = \"tumour\"\n{rest}\n");
         for (rest, key, what) in [
+            (object("funnel = \"3000 px\""), "object[0].funnel", "wider than the picture of"),
+            (
+                object("") + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour ghost\"]\n",
+                "clip[0].applies[0]",
+                "is not moved: it has no ghost",
+            ),
             (object("") + &object(""), "object[1].name", "both called"),
             ("[[object]]\nname = \"background\"\n".into(), "object[0].name", "the name of another part"),
             (object("label = \"liver\""), "object[0].label", "has no names of them"),
@@ -145,7 +172,7 @@ mod tests {
             (object("") + "[[intersection]]\nobject = \"tumor\"\n", "intersection[0].object", "tumour"),
             (object("") + &"[[intersection]]\nobject = \"tumour\"\n".repeat(2), "intersection[1]", "of the same pair"),
             (
-                object("") + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour ghost\"]\n",
+                object("") + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumor\"]\n",
                 "clip[0].applies[0]",
                 "background",
             ),

@@ -1,8 +1,9 @@
 //! Rules of `[[object]]`, `[combine]` and `[[intersection]]`: needs and keys without effect.
 
 use super::{Asks, Idle, Pass, Rules, halos_in_effect};
-use crate::plan::{Plan, Samples};
-use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene};
+use crate::plan::{Need, Plan, Samples};
+use crate::quantity::Quantity;
+use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene, TransferKind};
 
 /// The rules of `[[object]]`.
 pub(super) const RULES: Rules = Rules {
@@ -41,10 +42,12 @@ pub(super) const INTERSECTION: Rules = Rules {
     items: Some(|scene| scene.intersections.len()),
     asks: |scene, asks| {
         let item = asks.at.item.filter(|_| asks.casts_rays());
-        if item.is_some_and(|item| why_idle(scene, item).is_none()) {
-            let effect = format!("intersection {}", item.unwrap_or_default());
-            let key = asks.at.key.clone();
-            asks.pass(Pass::Intersections, &effect, &key);
+        let Some(item) = item.filter(|&item| why_idle(scene, item).is_none()) else { return };
+        let (effect, key) = (format!("intersection {item}"), asks.at.key.clone());
+        asks.pass(Pass::Intersections, &effect, &key);
+        for (shades, need) in meeting(scene, item) {
+            let samples = if shades.is_none() { Samples::Meetings } else { Samples::Part };
+            asks.need_at(need.quantity, samples, &effect, &key);
         }
     },
     idle: |scene, _, idle| {
@@ -55,6 +58,39 @@ pub(super) const INTERSECTION: Rules = Rules {
     },
     ..Rules::new("intersection")
 };
+
+/// A selection or a ghost, by the place of its object; none: the background.
+type Side = Option<(usize, Role)>;
+
+/// The needs of the looks that an intersection's sets have, each with the set that shades by it: a style is drawn by the normal,
+/// κ and |g| of the set with the larger μ ([VS-4]).
+fn meeting(scene: &Scene, item: usize) -> Vec<(Side, Need)> {
+    let table = &scene.intersections[item];
+    let Some(object) = scene.objects.iter().position(|object| object.name == table.object) else { return Vec::new() };
+    let selection = Some((object, Role::Selection));
+    let other = match table.with {
+        Opposite::Ghost => Some((object, Role::Ghost)),
+        Opposite::Background => None,
+    };
+    let needs = |of: Side| {
+        let scene = of.map_or_else(|| scene.of_background(), |(object, role)| scene.of_part(object, role));
+        let is_style = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Style);
+        let needs = if is_style { Plan::new(&scene).needs } else { Vec::new() };
+        needs.into_iter().filter(|need| need.samples == Samples::Visible && need.quantity != Quantity::Value)
+    };
+    let of = |look: Side, shades: Side| needs(look).map(move |need| (shades, need));
+    of(selection, other).chain(of(other, selection)).collect()
+}
+
+impl Plan {
+    /// Adds what a part is asked for where it meets other looks.
+    pub fn add_meetings(&mut self, scene: &Scene, object: usize, role: Role) {
+        for item in (0..scene.intersections.len()).filter(|&item| why_idle(scene, item).is_none()) {
+            let of_part = meeting(scene, item).into_iter().filter(|(shades, _)| *shades == Some((object, role)));
+            self.needs.extend(of_part.map(|(_, need)| Need { samples: Samples::Meetings, ..need }));
+        }
+    }
+}
 
 /// Asks for what an object and its parts are made of.
 fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {

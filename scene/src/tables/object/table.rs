@@ -151,7 +151,7 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
         if check.sound(&["scale", "rotate", "matrix"]) && object.motion.is_singular() {
             let key = if object.motion.matrix.is_some() { "matrix" } else { "scale" };
             let what = format!("the motion of the object {:?} is singular: it flattens the object", object.name);
-            let remedy = "give it a linear part with an inverse: no factor of 0 beside the others".into();
+            let remedy = "give it an inverse: no factor may be 0, or 10¹² times smaller than another".into();
             check.fault_in(key, Problem::Contradiction { what, remedy });
         }
     },
@@ -214,7 +214,7 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
             /// The depth up to which the background is cut.
             cut: key("VS-7", Cut::KIND);
             /// σ of the Gaussian that turns the cut into a funnel.
-            funnel: key("VS-7", Lengths { on: On::Page, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
+            funnel: key("VS-7", Lengths { on: On::Picture, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
             /// Whether it is the object that a person works on. No pixel depends on it.
             active: key("VS-2", Flag);
             /// Whether a viewer highlights it. No pixel depends on it.
