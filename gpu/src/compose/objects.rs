@@ -129,7 +129,7 @@ pub(super) fn add(
         drawn.push(DrawnPart { part: placed.part, takes, is_ghost: part.role == Role::Ghost, scales: scales_of_part });
         shaders.push((of_this, placed.suffix()));
     }
-    objects::add(shader, combination, &inputs.objects.pictures, &drawn, (shot, scales));
+    objects::add(shader, combination, &inputs.objects.pictures, &drawn, (shot, scales), precision);
     for (of_this, suffix) in shaders {
         shader.attach(of_this, precision, &suffix, volumeshop::part::NAMES, false);
     }

@@ -63,8 +63,16 @@ fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
     smooth.map(|cutaway| Funnel { sigma: cutaway.funnel, size: shot.view.size })
 }
 
+/// The share of a step by which a sample has to lie before the end of a funnel, so that rounding does not decide.
+fn slack(precision: Precision) -> f64 {
+    match precision {
+        Precision::Single => 1.0 / (1u64 << 10) as f64,
+        Precision::Double => 1.0 / (1u64 << 32) as f64,
+    }
+}
+
 /// Adds the funnels of a shot to its shader.
-pub(super) fn add(shader: &mut Shader, shot: &Shot) {
+pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
     let mut first = 0;
     let mut bands = Vec::new();
     for funnel in funnels(shot) {
@@ -73,6 +81,7 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot) {
     }
     shader.add(&[module!("funnel"), module!("funnel_depths")]);
     shader.stages.begin_part.push("begin_funnel");
+    shader.block.number("funnel_slack", slack(precision));
     shader.bind(26, "the bands of funnels", Data::Words(bands));
 }
 

@@ -28,5 +28,5 @@ fn funnel_end(funnel: i32, plane: real) -> real {
     }
     let z_in = depth_of_plane(own_ray, max(through.x, params.near_steps));
     // Rounding does not decide whether a sample at the end itself lies before it.
-    return max(plane_at_depth(own_ray, z_in + min(2.0 * map.x, 1.0) * (map.y - z_in)), plane) - 1.0 / 1024.0;
+    return max(plane_at_depth(own_ray, z_in + min(2.0 * map.x, 1.0) * (map.y - z_in)), plane) - params.funnel_slack;
 }

@@ -1,6 +1,7 @@
 //! Objects together ([VS-2] … [VS-4], [VS-7]): functions of the picture's shader that call those of its parts.
 
 use super::funnel;
+use crate::Precision;
 use crate::field::Scales;
 use crate::number::{BILINEAR, NUMBER};
 use crate::shader::{Data, Module, Shader, module};
@@ -35,6 +36,7 @@ pub(crate) fn add(
     pictures: &[Option<&IntersectionPicture>],
     parts: &[DrawnPart],
     (shot, scales): (&Shot, &Scales),
+    precision: Precision,
 ) {
     shader.add(&[NUMBER, module!("sets"), module!("background")]);
     shader.add(&[match combination.fuzzy {
@@ -50,7 +52,7 @@ pub(crate) fn add(
         shader.block.number(format!("ghosting_{i}"), cutaway.ghosting);
     }
     if cutaways.iter().any(|cutaway| cutaway.funnel > 0.0) {
-        funnel::add(shader, shot);
+        funnel::add(shader, shot, precision);
     }
     let mut text = rays(parts, &cutaways);
     text += &ghosts(cutaways.len());

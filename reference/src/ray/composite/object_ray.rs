@@ -14,7 +14,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, IntersectionPaint};
 
 /// The share of a step by which a sample has to lie before the end of a funnel.
-const SLACK: f64 = 1.0 / 1024.0;
+const SLACK: f64 = 1.0 / (1u64 << 32) as f64;
 
 /// The objects on a ray.
 pub(super) struct ObjectRay<'p, 'v, R: Real> {
