@@ -5,6 +5,7 @@ mod elementary;
 mod field;
 mod halos;
 mod lighting;
+mod meshes;
 mod over_two;
 mod samples;
 mod styles;
@@ -132,12 +133,14 @@ const HELD_BY_PICTURES: &[&str] = &[
     "enter_box",
     "eye_normal",
     "filtered",
+    "find_mesh",
     "find_surface",
     "first_root",
     "flag_place",
     "foot_of",
     "forget_normal",
     "forget_sample",
+    "forget_surface",
     "front_of",
     "glow_at",
     "gradient_at",
@@ -185,8 +188,12 @@ const HELD_BY_PICTURES: &[&str] = &[
     "meet_end",
     "meet_line",
     "meet_lines_left",
+    "meet_mesh",
     "meet_surface",
     "meets_surface",
+    "mesh_vector",
+    "nearest_triangle",
+    "no_samples",
     "node_color",
     "normal_of",
     "occlusion_of",
@@ -215,6 +222,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "seek",
     "set_flag",
     "set_open",
+    "shade_mesh",
     "shade_style",
     "shade_surface_by_phong",
     "shade_surface_by_toon",
@@ -236,6 +244,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "test",
     "tile_of",
     "tint_at",
+    "triangle_word",
     "vector_of",
     "voxel_along",
 ];
