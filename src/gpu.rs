@@ -82,6 +82,7 @@ impl<'a> GpuJob<'a> {
             further: job.further.each_ref().map(Option::as_ref),
             styles: &job.styles,
             background: job.backdrop(&self.shot),
+            meshes: &[],
             has_lines: false,
             objects: ObjectInputs::default(),
         }
@@ -105,6 +106,7 @@ impl<'a> GpuJob<'a> {
         let parts = objects.jobs().zip(of_parts).zip(&self.places[1..]);
         let parts = parts.map(|((job, measured), &place)| PartInputs { inputs: self.inputs(job, measured), place });
         let inputs = Inputs {
+            meshes: &self.job.meshes,
             has_lines: self.has_lines,
             objects: ObjectInputs {
                 parts: parts.collect(),

@@ -89,7 +89,7 @@ pub struct Job {
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
     /// The meshes that the scene names, in the world.
-    meshes: Vec<TriangleMesh>,
+    pub(crate) meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
     pub(crate) objects: Objects,

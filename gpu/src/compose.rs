@@ -8,7 +8,7 @@ use crate::place::Place;
 use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
-    GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, ray, shading,
+    GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, mesh, ray, shading,
     style_transfer_functions, surface, transfer, volumeshop, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
@@ -37,9 +37,6 @@ pub(crate) fn shader(
     }
     if shot.combination.is_some() && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "halos beside objects", key: "halo" });
-    }
-    if !shot.meshes.is_empty() {
-        return Err(GpuError::Missing { what: "meshes", key: "mesh" });
     }
     let place = Place::own(shot, inputs.volume.grid());
     let (mut shader, scales) = of_volume((shot, layers), inputs, &place, precision, interpolation)?;
@@ -131,18 +128,27 @@ fn of_volume(
         ray::add_cuts(&mut shader);
     }
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
+    if ray::ends_rays(shot) {
+        ray::add_end(&mut shader);
+    }
+    if !shot.meshes.is_empty() {
+        mesh::add(&mut shader, shot, inputs, scales.value(0.0), precision)?;
+    }
     if let Some(surface) = &shot.surface {
         let has_mask = inputs.volume.mask().is_some();
         let (kernel, slack) = (object.reconstruction.kernel, ray::rounding(&scales, precision));
         surface::add_search(&mut shader, kernel, surface.iso, measured, &scales, slack, has_mask);
         surface::add(&mut shader, shot, surface, has_mask);
-        if inputs.has_lines {
-            ray::lines::add_surface(&mut shader);
-        }
         add_light(&mut shader, &surface.lit, LitColors::Surface);
         if clips {
             surface::add_caps(&mut shader, !of_caps.is_empty());
         }
+    }
+    if !shot.meshes.is_empty() {
+        mesh::add_search(&mut shader);
+    }
+    if ray::ends_rays(shot) && inputs.has_lines {
+        ray::lines::add_surface(&mut shader);
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.background);
@@ -161,9 +167,11 @@ pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
     ray::add_view(&mut block, shot, place)?;
     let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
     let of_surface = shot.surface.as_ref().and_then(|surface| light_of(&surface.lit));
-    for (of, light) in [(LitColors::Samples, of_samples), (LitColors::Surface, of_surface)] {
+    let of_meshes = shot.meshes.first().and_then(|mesh| light_of(&mesh.lit));
+    let names = [LitColors::Samples.light(), LitColors::Surface.light(), shading::MESH_LIGHT];
+    for (name, light) in names.into_iter().zip([of_samples, of_surface, of_meshes]) {
         if let Some(light) = light {
-            block.vector(of.light(), light);
+            block.vector(name, light);
         }
     }
     Ok(block)

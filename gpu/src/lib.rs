@@ -19,6 +19,7 @@ mod error;
 mod field;
 mod interactive_volume_illustration;
 mod kernel;
+mod mesh;
 mod number;
 mod picture_buffers;
 mod place;

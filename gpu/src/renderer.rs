@@ -19,6 +19,7 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::measured::Measured;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
@@ -45,6 +46,8 @@ pub struct Inputs<'a> {
     pub styles: &'a [Style],
     /// The background.
     pub background: Backdrop<'a>,
+    /// The meshes of the shot, in its order, in the world ([VS-12]).
+    pub meshes: &'a [TriangleMesh],
     /// Whether frames can have lines inside the volume ([HATCH-14] d).
     pub has_lines: bool,
     /// What the shot's objects name ([VS-2]).
@@ -137,7 +140,14 @@ impl<'g> Renderer<'g> {
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?, funnels)
         } else {
             let shader = (&shader, text.as_str());
-            Rays::Together(Box::new(HaloPlanes::new(gpu, shot, grid, shader, &data_layout, precision)?))
+            Rays::Together(Box::new(HaloPlanes::new(
+                gpu,
+                shot,
+                (grid, inputs.meshes),
+                shader,
+                &data_layout,
+                precision,
+            )?))
         };
         let params = buffer(
             gpu,

@@ -1,5 +1,6 @@
-//! Facts that only voxels can tell, measured once and handed to every renderer that did not measure it itself.
+//! Facts that only data can tell, measured once and handed to every renderer that did not measure it itself.
 
+use crate::mesh::BoxNode;
 use crate::volume::Bricks;
 use std::sync::Arc;
 
@@ -45,4 +46,7 @@ pub struct Measured {
     pub label_distances: [Option<Vec<f64>>; 2],
     /// Ranges of values of bricks of cells; none where nothing is skipped ([RAY-2]).
     pub bricks: Option<Bricks>,
+    /// The tree of boxes about the triangles of all meshes of the shot, one mesh after the other, in the volume's index space;
+    /// empty without a mesh ([VS-12]).
+    pub mesh_boxes: Arc<[BoxNode]>,
 }

@@ -7,6 +7,7 @@ mod field;
 mod formulas;
 mod halos;
 mod lines;
+mod meshes;
 mod objects;
 mod points;
 #[path = "sabotage/bounds.rs"]
@@ -15,6 +16,8 @@ mod sabotage_of_bounds;
 mod sabotage_of_halos;
 #[path = "sabotage/lines.rs"]
 mod sabotage_of_lines;
+#[path = "sabotage/meshes.rs"]
+mod sabotage_of_meshes;
 #[path = "sabotage/objects.rs"]
 mod sabotage_of_objects;
 #[path = "sabotage/points.rs"]

@@ -9,6 +9,7 @@ use drypoint_scene::file::{Overrides, parse};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::measured::{Measured, PaddedNumbers};
+use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::{
     Axis, Clipping, GradientEstimator, Kernel, Object, PartFacts, Reconstruction, SelectionFacts, Shot, VolumeFacts,
@@ -192,6 +193,7 @@ const CHOICES: &[Choice] = &[
             ],
         ],
     ),
+    ("meshes", &[&[], &[("[mesh]", "file = \"m.ply\"")]]),
     // Not of the scene's text.
     ("picture behind", &[&[], &[]]),
     ("labels elsewhere", &[&[], &[]]),
@@ -252,6 +254,7 @@ fn measured(volume: &Volume, has_range: bool, has_bricks: bool) -> Measured {
         gradient_scale: 1.0,
         label_distances: [0, 1].map(|_| Some(vec![0.0; volume.grid().len()])),
         bricks: has_bricks.then_some(bricks),
+        mesh_boxes: Arc::new([BoxNode { lo: DVec3::ZERO, hi: DVec3::ONE, first: 0, is_leaf: true }]),
     }
 }
 
@@ -309,7 +312,9 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
         selections: scene.objects.iter().map(|object| object.selection.as_ref().map(|_| &selection)).collect(),
         pictures: shot.combination.iter().flat_map(|c| &c.intersections).map(|_| Some(&picture)).collect(),
     };
-    let inputs = Inputs { has_lines, objects, ..drawn[0].inputs(volume, &labels, background) };
+    let triangle = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], None, vec![[0, 1, 2]]).unwrap();
+    let meshes = vec![triangle; shot.meshes.len()];
+    let inputs = Inputs { has_lines, objects, meshes: &meshes, ..drawn[0].inputs(volume, &labels, background) };
     match shader(&shot, &drawn_layers(&shot), &inputs, precision, interpolation) {
         Ok((shader, _)) => Ok(Some(shader.text(precision))),
         Err(GpuError::Missing { .. }) => Ok(None),
@@ -331,7 +336,8 @@ impl Drawn<'_> {
             matches!(over, Some(Axis::Volume(_))).then_some(volume)
         });
         let (measured, styles, objects) = (&self.measured, &*self.styles, ObjectInputs::default());
-        Inputs { volume, measured, labels: Some(labels), further, styles, background, has_lines: false, objects }
+        let labels = Some(labels);
+        Inputs { volume, measured, labels, further, styles, background, meshes: &[], has_lines: false, objects }
     }
 }
 

@@ -12,6 +12,11 @@ fn over(front: Front, rgb: vec3<real>, alpha: real) -> Front {
     return Front(front.rgb + w * rgb, front.opacity + w);
 }
 
+// Lays an opaque straight colour behind what is there.
+fn opaque_behind(front: Front, rgb: vec3<real>) -> Front {
+    return Front(front.rgb + (1.0 - front.opacity) * rgb, 1.0);
+}
+
 // Lays a premultiplied colour behind what is there ([IO-6]).
 fn over_premultiplied(front: Front, behind: vec4<real>) -> Front {
     let through = 1.0 - front.opacity;

@@ -20,7 +20,7 @@ pub(crate) fn add(shader: &mut Shader) {
     shader.stages.ends.push("meet_lines_left");
 }
 
-/// Ends lines at an iso-surface that was added after them.
+/// Ends lines at the iso-surface or the meshes that were added after them.
 pub(crate) fn add_surface(shader: &mut Shader) {
     shader.add(&[module!("lines_before_surface")]);
     shader.stages.begin_ray.push("end_lines_at_surface");

@@ -38,7 +38,7 @@ fn meet_line(front: Front) -> Front {
     next_line++;
     let rgb = in_blend_space(vec3<real>(line.r, line.g, line.b));
     if (line.opacity >= 1.0) {
-        return Front(front.rgb + (1.0 - front.opacity) * rgb, 1.0);
+        return opaque_behind(front, rgb);
     }
     return over(front, rgb, line.opacity);
 }

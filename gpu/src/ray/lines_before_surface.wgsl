@@ -1,4 +1,4 @@
-// Lines beyond an iso-surface are not seen ([HATCH-14] d).
+// Lines beyond an iso-surface or a mesh are not seen ([HATCH-14] d).
 
 fn end_lines_at_surface(ray: Ray) {
     while (next_line < end_line && !(fragments[end_line - 1].t < hit)) {

@@ -64,7 +64,7 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
-    if shot.surface.is_some() || volumeshop::has_funnel(shot) {
+    if ends_rays(shot) || volumeshop::has_funnel(shot) {
         let near = if view.perspective { lattice.near / lattice.step - steps } else { -MOST_PLANES };
         block.number("near_steps", near.max(-MOST_PLANES));
     }
@@ -80,6 +80,11 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
     block.vector("box_low", low);
     block.vector("box_high", high);
     Ok(())
+}
+
+/// Whether a shot has an opaque surface at which rays end: an iso-surface or a mesh.
+pub(crate) fn ends_rays(shot: &Shot) -> bool {
+    shot.surface.is_some() || !shot.meshes.is_empty()
 }
 
 /// Adds the loop over samples and what it calls.
@@ -154,6 +159,15 @@ pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) 
 pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.measured.push("measure_cut");
     shader.stages.cut.push("show_cap");
+}
+
+/// Adds the end of rays at an opaque surface, before what searches it.
+pub(crate) fn add_end(shader: &mut Shader) {
+    shader.add(&[module!("end")]);
+    shader.stages.begin_ray.push("forget_surface");
+    shader.stages.samples_left.push("end_at_surface");
+    shader.stages.all_left.push("end_at_surface");
+    shader.stages.steps.push("share_before_surface");
 }
 
 /// The rounding of a value.

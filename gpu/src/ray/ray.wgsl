@@ -1,5 +1,8 @@
 // Rays in index space, and the box of the volume.
 
+// A plane beyond all planes.
+const NO_HIT = 8.0e6;
+
 struct Ray {
     // Index position at the anchor's plane, a plane in the middle of the volume.
     origin: vec3<real>,

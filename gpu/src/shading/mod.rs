@@ -1,6 +1,6 @@
 //! Blinn–Phong shading ([STF-11]), and the colours that light falls on.
 
-use crate::number::ELEMENTARY;
+use crate::number::{ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Shader, module};
 use drypoint_scene::shot::PhongParams;
 
@@ -39,17 +39,32 @@ impl LitColors {
     }
 }
 
+/// The name of the direction to the light of meshes.
+pub(crate) const MESH_LIGHT: &str = "mesh_light";
+
+/// Adds the reflection of light on meshes.
+pub(crate) fn add_to_meshes(shader: &mut Shader, phong: &PhongParams) {
+    let is_whole = add_phong(shader, phong, MESH_LIGHT, |name| format!("mesh_{name}"));
+    shader.add(&[module!("phong_of_meshes")]);
+    shader.constant("MESH_WHOLE_SHININESS", is_whole);
+}
+
+/// Adds Blinn–Phong with numbers of these names. Returns whether the shininess is a small whole number.
+fn add_phong(shader: &mut Shader, phong: &PhongParams, light: &'static str, name: impl Fn(&str) -> String) -> Constant {
+    shader.add(&[NUMBER, ELEMENTARY, module!("phong")]);
+    let (block, s) = (&mut shader.block, phong.shininess);
+    block.vector(light, phong.light);
+    for (key, value) in
+        [("ambient", phong.ambient), ("diffuse", phong.diffuse), ("specular", phong.specular), ("shininess", s)]
+    {
+        block.number(name(key), value);
+    }
+    Constant::Bool(s.fract() == 0.0 && (0.0..=64.0).contains(&s))
+}
+
 /// Adds the reflection of light.
 pub(crate) fn add(shader: &mut Shader, phong: &PhongParams, of: LitColors) {
-    shader.add(&[ELEMENTARY, module!("phong")]);
-    let block = &mut shader.block;
-    block.vector(of.light(), phong.light);
-    block.number(of.number("ambient"), phong.ambient);
-    block.number(of.number("diffuse"), phong.diffuse);
-    block.number(of.number("specular"), phong.specular);
-    block.number(of.number("shininess"), phong.shininess);
-    let s = phong.shininess;
-    let is_whole = Constant::Bool(s.fract() == 0.0 && (0.0..=64.0).contains(&s));
+    let is_whole = add_phong(shader, phong, of.light(), |name| of.number(name));
     match of {
         LitColors::Samples => {
             shader.add(&[module!("phong_of_samples")]);

@@ -4,7 +4,6 @@
 var<private> hit_plane: i32;
 
 fn find_surface(ray: Ray) {
-    hit = NO_HIT;
     hit_plane = -1;
     let kept = kept_of(ray, params.near_steps, NO_HIT);
     if (kept.start > kept.end) {

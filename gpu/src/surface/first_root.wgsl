@@ -1,8 +1,5 @@
 // The first place on a ray where the field has the value of an iso-surface ([HATCH-14]).
 
-// A t beyond all planes.
-const NO_HIT = 8.0e6;
-
 // The result of a search in one cell.
 struct CellSearch {
     is_root: bool,

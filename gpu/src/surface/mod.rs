@@ -48,7 +48,7 @@ pub(crate) fn add_inside(shader: &mut Shader, outside: Outside, has_mask: bool) 
     shader.constant("OUTSIDE_IS_LOW", Constant::Bool(outside == Outside::Low));
 }
 
-/// Adds an iso-surface at which rays end, of which the search is there.
+/// Adds an iso-surface at which rays end, of which the search is there, and the end of rays.
 pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has_mask: bool) {
     let [object] = &shot.objects;
     shader.add(&[module!("../ray/surface")]);
@@ -60,11 +60,11 @@ pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has
         shader.stages.ends.push("cut_surface");
     }
     shader.block.vector("surface_rgb", surface.rgb.into());
-    shader.constant("SURFACE_ALONE", Constant::Bool(surface.alone));
     shader.stages.begin_ray.push("find_surface");
-    shader.stages.samples_left.push("end_at_surface");
-    shader.stages.all_left.push("end_at_surface");
-    shader.stages.steps.push("share_before_surface");
+    if surface.alone {
+        shader.add(&[module!("alone")]);
+        shader.stages.samples_left.push("no_samples");
+    }
     shader.stages.ends.push("meet_surface");
     if !shot.clipping.planes.is_empty() {
         shader.stages.ends.push("leave_surface");

@@ -1,4 +1,4 @@
-// The plane of an iso-surface ([HATCH-14]): the first one behind it, whose tint it takes.
+// The plane of an iso-surface ([HATCH-14]) or a mesh ([VS-12]): the first one behind it, whose tint it takes.
 
 fn end_plane() -> i32 {
     return select(last_before_surface() + 1, NO_PLANE, hit >= NO_HIT);

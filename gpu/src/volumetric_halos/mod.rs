@@ -7,7 +7,7 @@ mod stages;
 
 use crate::field::Scales;
 use crate::number::{ELEMENTARY, NUMBER};
-use crate::ray::{EYE_NORMAL, layers, rounding};
+use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
 use crate::shader::{Constant, Data, Shader, module};
 use crate::{GpuError, Inputs, Precision, transfer};
 use drypoint_scene::glam::DVec3;
@@ -149,9 +149,9 @@ pub(crate) fn add(
         add_bricks(shader, list, object, bricks, rounding(scales, precision));
         next.push("skip_seed_brick");
     }
-    shader.add(&[match shot.surface {
-        Some(_) => module!("end_at_surface"),
-        None => module!("no_end"),
+    shader.add(&[match ends_rays(shot) {
+        true => module!("end_at_surface"),
+        false => module!("no_end"),
     }]);
     shader.bind(30, "the halos", Data::Reals(numbers));
     shader.bind(31, "the numbers of halos", Data::Reals(lists.numbers));
@@ -271,9 +271,15 @@ fn add_stages(
         kept.extend([Kept::whole("cut_k"), Kept::whole("cut_plane")]);
     }
     let seed_kept = kept.clone();
-    if shot.surface.is_some() {
+    if ends_rays(shot) {
         kept.push(Kept::real("hit"));
+    }
+    if shot.surface.is_some() {
         kept.extend(clips.map(|_| Kept::whole("hit_plane")));
+    }
+    if !shot.meshes.is_empty() {
+        kept.push(Kept::whole("met_mesh"));
+        kept.extend(["mesh_normal.x", "mesh_normal.y", "mesh_normal.z"].map(Kept::real));
     }
     if stages.visited.contains(&"count_sample") {
         kept.push(Kept::whole("samples_of_ray"));

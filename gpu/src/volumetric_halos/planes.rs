@@ -5,6 +5,7 @@ use crate::canvas::Canvas;
 use crate::shader::Shader;
 use crate::{Gpu, GpuError, Precision, ray};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::halo::{split_distance, tap_distance};
 use drypoint_scene::shot::{HaloKind, HaloParams, Shot};
@@ -95,13 +96,22 @@ fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last
     groups
 }
 
-/// The planes, counted from the eye, on which any ray can have a sample or an iso-surface.
-fn reached(shot: &Shot, grid: &Grid) -> [i64; 2] {
+/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or a mesh, of which the corners of a
+/// box are given.
+fn reached(shot: &Shot, grid: &Grid, of_meshes: &[DVec3]) -> [i64; 2] {
     let Shot { view, lattice, .. } = shot;
-    let corners = grid.world_corners().map(|corner: DVec3| view.to_eye(corner));
+    let corners = grid.world_corners().into_iter().chain(of_meshes.iter().copied());
+    let corners: Vec<DVec3> = corners.map(|corner| view.to_eye(corner)).collect();
     let [near, far] = [f64::min, f64::max].map(|end| corners.iter().map(|p| -p.z).reduce(end).unwrap_or(0.0));
     let plane = |depth: f64| (depth / lattice.step).floor() as i64;
     [(plane(near) - 1).max(lattice.first(view)), plane(far) + 2]
+}
+
+/// The corners of the box about a mesh.
+fn corners(mesh: &TriangleMesh) -> [DVec3; 8] {
+    let all = || mesh.positions().iter().copied();
+    let ends = [all().reduce(DVec3::min), all().reduce(DVec3::max)].map(Option::unwrap_or_default);
+    std::array::from_fn(|i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
 }
 
 /// Halos of a picture on a graphics card: images and states of rays, and the passes over them.
@@ -116,6 +126,8 @@ pub(crate) struct HaloPlanes {
     watched: Vec<bool>,
     groups: Vec<PlaneGroup>,
     anchor: i64,
+    /// Corners of boxes about the meshes.
+    mesh_corners: Vec<DVec3>,
     start: wgpu::ComputePipeline,
     visit: wgpu::ComputePipeline,
     tiles: wgpu::ComputePipeline,
@@ -150,7 +162,7 @@ impl HaloPlanes {
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
-        grid: &Grid,
+        (grid, meshes): (&Grid, &[TriangleMesh]),
         (shader, text): (&Shader, &str),
         data_layout: &wgpu::BindGroupLayout,
         precision: Precision,
@@ -208,6 +220,7 @@ impl HaloPlanes {
             watched,
             groups: Vec::new(),
             anchor: 0,
+            mesh_corners: meshes.iter().flat_map(corners).collect(),
             start: pass("halo_start", false)?,
             visit: pass("halo_planes", false)?,
             tiles: pass("halo_tiles", false)?,
@@ -228,7 +241,7 @@ impl HaloPlanes {
 
     /// Takes the camera of another shot.
     pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
-        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid));
+        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.mesh_corners));
         self.anchor = ray::anchor(shot, grid) as i64;
     }
 

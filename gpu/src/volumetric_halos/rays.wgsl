@@ -70,7 +70,7 @@ fn meet_end(ray: Ray, tint: Tint, front: Front) -> Front {
     if (end.opacity < 1.0) {
         return front;
     }
-    return Front(front.rgb + (1.0 - front.opacity) * tinted(end.rgb, tint), 1.0);
+    return opaque_behind(front, tinted(end.rgb, tint));
 }
 
 // A ray of the picture while it visits a group's planes.

@@ -47,6 +47,7 @@ impl<R: Real> Field<'_, R> {
             gradient_scale: back(self.no_normal_below) / R::NO_NORMAL.to_f64(),
             label_distances: [None, None],
             bricks: None,
+            mesh_boxes: Arc::default(),
         }
     }
 }

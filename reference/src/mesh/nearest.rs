@@ -3,8 +3,9 @@
 use super::tree::{BoxTree, Slabs};
 use super::triangle::{Crossing, ShearedLine};
 use drypoint_scene::glam::DVec3;
-use drypoint_scene::mesh::TriangleMesh;
+use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::space::Grid;
+use std::sync::Arc;
 
 /// The meshes of a picture, ready for lines.
 pub(crate) struct MeshSearch<'a> {
@@ -53,6 +54,11 @@ impl<'a> MeshSearch<'a> {
     #[cfg(test)]
     pub(super) fn place(&self, hit: &MeshHit) -> usize {
         self.first[hit.mesh] + hit.triangle
+    }
+
+    /// The boxes about the triangles.
+    pub(crate) fn boxes(&self) -> Arc<[BoxNode]> {
+        self.tree.nodes()
     }
 
     /// Bytes in memory.

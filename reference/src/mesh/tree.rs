@@ -1,24 +1,16 @@
 //! A tree of boxes about triangles.
 
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::mesh::BoxNode;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
+use std::sync::Arc;
 
 /// A tree over boxes. Its leaves have one box each.
 #[derive(Clone, Debug)]
 pub(super) struct BoxTree {
-    nodes: Vec<Node>,
-}
-
-/// A node of the tree.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    lo: DVec3,
-    hi: DVec3,
-    /// The first of two children side by side, or the box of a leaf.
-    first: u32,
-    is_leaf: bool,
+    nodes: Arc<[BoxNode]>,
 }
 
 /// A line prepared for boxes.
@@ -36,7 +28,7 @@ impl Slabs {
 
     /// The parameter at which the line enters a box, none if it misses the box. The parameter is a little early, and
     /// a box that the line passes closely counts as met.
-    fn enters(&self, node: &Node) -> Option<f64> {
+    fn enters(&self, node: &BoxNode) -> Option<f64> {
         /// Relative errors of differences and products here, and of the test of a triangle, are a few ε.
         const SLACK: f64 = 64.0 * f64::EPSILON;
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -75,7 +67,7 @@ impl BoxTree {
         let built = PlocBuilder::new().build(PlocSearchDistance::Low, &bounds, indices, SortPrecision::U64, 0);
         let open_lo = |x: f32| if x > f32::MIN { f64::from(x) } else { f64::NEG_INFINITY };
         let open_hi = |x: f32| if x < f32::MAX { f64::from(x) } else { f64::INFINITY };
-        let node = |n: &Bvh2Node| Node {
+        let node = |n: &Bvh2Node| BoxNode {
             lo: DVec3::from_array([0, 1, 2].map(|a| open_lo(n.aabb().min[a]))),
             hi: DVec3::from_array([0, 1, 2].map(|a| open_hi(n.aabb().max[a]))),
             first: if n.is_leaf() { built.primitive_indices[n.first_index as usize] } else { n.first_index },
@@ -84,15 +76,20 @@ impl BoxTree {
         Self { nodes: built.nodes.iter().map(node).collect() }
     }
 
+    /// The nodes.
+    pub(super) fn nodes(&self) -> Arc<[BoxNode]> {
+        self.nodes.clone()
+    }
+
     /// Bytes in memory.
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
+        size_of_val(&*self.nodes)
     }
 
     /// Visits the boxes that a line can meet up to a parameter, nearer ones first as a rule. `visit` receives a box and
     /// returns the parameter up to which further ones are asked for.
     pub(super) fn visit(&self, line: &Slabs, mut until: f64, mut visit: impl FnMut(u32) -> f64) {
-        let mut open: Vec<(f64, &Node)> = Vec::with_capacity(64);
+        let mut open: Vec<(f64, &BoxNode)> = Vec::with_capacity(64);
         let enter = |node| line.enters(node).map(|t| (t, node));
         open.extend(self.nodes.first().and_then(enter));
         while let Some((t, node)) = open.pop() {

@@ -252,6 +252,9 @@ pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Vec<
             ..of_field
         });
     }
+    for (own, meshes) in all.iter_mut().zip(&prepared.meshes) {
+        own.mesh_boxes = meshes.boxes();
+    }
     all
 }
 

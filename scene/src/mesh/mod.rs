@@ -1,7 +1,9 @@
 //! Meshes of triangles: opaque geometry beside a volume ([VS-12]).
 
+mod box_node;
 pub mod read;
 
+pub use box_node::BoxNode;
 use glam::{DAffine3, DVec3};
 
 /// A mesh of triangles, in world units.

@@ -5,6 +5,7 @@ mod elementary;
 mod field;
 mod halos;
 mod lighting;
+mod meshes;
 mod over_two;
 mod samples;
 mod styles;
@@ -146,12 +147,14 @@ const HELD_BY_PICTURES: &[&str] = &[
     "far_side",
     "filtered",
     "find_depths",
+    "find_mesh",
     "find_surface",
     "first_root",
     "flag_place",
     "foot_of",
     "forget_normal",
     "forget_sample",
+    "forget_surface",
     "front_of",
     "funnel_end",
     "glow_at",
@@ -210,9 +213,13 @@ const HELD_BY_PICTURES: &[&str] = &[
     "meet_end",
     "meet_line",
     "meet_lines_left",
+    "meet_mesh",
     "meet_surface",
     "meets_surface",
     "membership_at",
+    "mesh_vector",
+    "nearest_triangle",
+    "no_samples",
     "node_color",
     "normal_of",
     "note_sample",
@@ -247,6 +254,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "seen_part",
     "set_flag",
     "set_open",
+    "shade_mesh",
     "shade_style",
     "shade_surface_by_phong",
     "shade_surface_by_toon",
@@ -271,6 +279,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "through_box",
     "tile_of",
     "tint_at",
+    "triangle_word",
     "unlit_background",
     "unlit_part",
     "vector_of",

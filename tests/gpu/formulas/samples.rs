@@ -60,13 +60,15 @@ fn colours_are_laid_over_each_other() {
         modules: modules(&["ray/accumulator"]),
         before: "let front = Front(vec3<real>(x[0], x[1], x[1]), x[2]);
             let a = over(front, vec3<real>(x[3], x[4], x[4]), x[5]);
-            let b = over_premultiplied(front, vec4<real>(x[3], x[4], x[4], x[5]));",
-        results: &["a.rgb.x", "a.rgb.z", "a.opacity", "b.rgb.x", "b.rgb.z", "b.opacity"],
+            let b = over_premultiplied(front, vec4<real>(x[3], x[4], x[4], x[5]));
+            let c = opaque_behind(front, vec3<real>(x[3], x[4], x[4]));",
+        results: &["a.rgb.x", "a.rgb.z", "a.opacity", "b.rgb.x", "b.rgb.z", "b.opacity", "c.rgb.z", "c.opacity"],
         ..Kernel::default()
     };
     let truth = |&[r, g, a, r1, g1, a1]: &[f64; 6]| {
         let (w, through) = ((1.0 - a) * a1, 1.0 - a);
-        [r + w * r1, g + w * g1, a + w, r + through * r1, g + through * g1, a + through * a1]
+        let behind = [r + through * r1, g + through * g1, a + through * a1];
+        [r + w * r1, g + w * g1, a + w, behind[0], behind[1], behind[2], behind[1], 1.0]
     };
     hold("over", errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0), 8.0 * U);
 }

@@ -1,0 +1,16 @@
+//! Trees of boxes about triangles.
+
+use glam::DVec3;
+
+/// A node of a binary tree of boxes. A tree is a list of nodes, and begins with its root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxNode {
+    /// The lowest corner; −∞ where the box has no end.
+    pub lo: DVec3,
+    /// The highest corner.
+    pub hi: DVec3,
+    /// The place of the first of two children side by side, or the triangle of a leaf.
+    pub first: u32,
+    /// Whether it is a leaf, with one triangle.
+    pub is_leaf: bool,
+}
