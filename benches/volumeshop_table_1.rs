@@ -2,8 +2,10 @@
 //! beside frames without one. The paper's function and picture: opaque above 1228, 512×512 pixels, about 444 planes, turned
 //! about each axis. Empty space is skipped, and rays end at 1/255.
 //!
-//! `cargo bench --bench volumeshop_table_1`
+//! `cargo bench --bench volumeshop_table_1`, with `--features gpu` on a graphics card, too.
 
+#[cfg(feature = "gpu")]
+use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::Job;
 use drypoint::reference::ray::Renderer;
 use drypoint::scene::file::{Overrides, parse};
@@ -39,40 +41,68 @@ fn table(folder: &Path) -> Result<(), String> {
         jobs.push(job(folder, *side, &grid)?);
     }
     let views = views(&jobs[0])?;
-    // Frames of all selections take turns, view by view, so that what slows the machine slows all of them.
-    let mut ratios = vec![Vec::new(); PAPER.len()];
-    let mut seconds = vec![Vec::new(); PAPER.len()];
-    let mut samples = vec![0u64; PAPER.len()];
+    println!("By the reference:\n");
     let mut renderers: Vec<Renderer<'_>> =
         jobs.iter().map(Job::renderer).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
+    let mut samples = vec![0u64; PAPER.len()];
+    measure(&views, |i, view| {
+        let shot = jobs[i].shot_from(view.clone()).map_err(|e| e.to_string())?;
+        renderers[i].turn(&shot).map_err(|e| e.to_string())?;
+        let start = Instant::now();
+        let (picture, counts) = renderers[i].again(&|_| ());
+        std::hint::black_box(picture);
+        samples[i] += counts.samples;
+        Ok(start.elapsed().as_secs_f64())
+    })?;
+    let more: Vec<String> = samples.iter().map(|&n| format!("{:.3}", n as f64 / samples[0] as f64)).collect();
+    println!("\nSamples to none: {}", more.join(", "));
+    #[cfg(feature = "gpu")]
+    on_card(&jobs, &views)?;
+    Ok(())
+}
+
+/// The table on a graphics card, by its own clock where it has one.
+#[cfg(feature = "gpu")]
+fn on_card(jobs: &[Job], views: &[View]) -> Result<(), String> {
+    let gpu = Gpu::new().map_err(|e| e.to_string())?;
+    println!("\nOn {}:\n", gpu.describe());
+    let mut frames: Vec<GpuFrames<'_>> =
+        jobs.iter().map(|job| GpuFrames::new(job, &gpu)).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
+    measure(views, |i, view| {
+        let shot = jobs[i].shot_from(view.clone()).map_err(|e| e.to_string())?;
+        frames[i].turn(&shot).map_err(|e| e.to_string())?;
+        let start = Instant::now();
+        let on_card = frames[i].show().map_err(|e| e.to_string())?;
+        Ok(on_card.unwrap_or(start.elapsed().as_secs_f64()))
+    })
+}
+
+/// Prints the seconds of frames, and their ratios to those without a selection. Frames of all selections take turns, view by
+/// view, so that what slows the machine slows all of them. `frame` draws one for a selection and returns its seconds.
+fn measure(views: &[View], mut frame: impl FnMut(usize, &View) -> Result<f64, String>) -> Result<(), String> {
+    let mut ratios = vec![Vec::new(); PAPER.len()];
+    let mut seconds = vec![Vec::new(); PAPER.len()];
     for round in 0..=ROUNDS {
-        for view in &views {
+        for view in views {
             let mut without = 0.0;
-            for (i, renderer) in renderers.iter_mut().enumerate() {
-                let shot = jobs[i].shot_from(view.clone()).map_err(|e| e.to_string())?;
-                renderer.turn(&shot).map_err(|e| e.to_string())?;
-                let start = Instant::now();
-                let (picture, counts) = renderer.again(&|_| ());
-                std::hint::black_box(picture);
-                let taken = start.elapsed().as_secs_f64();
+            for i in 0..PAPER.len() {
+                let taken = frame(i, view)?;
                 if i == 0 {
                     without = taken;
                 }
                 if round > 0 {
                     seconds[i].push(taken);
                     ratios[i].push(taken / without);
-                    samples[i] += counts.samples;
                 }
             }
         }
     }
-    println!("| selection | ms a frame | ratio to none | the paper's | samples to none |");
-    println!("|---|--:|--:|--:|--:|");
+    println!("| selection | ms a frame | ratio to none | the paper's |");
+    println!("|---|--:|--:|--:|");
     for (i, (side, frames)) in PAPER.into_iter().enumerate() {
         let name = if side == 0 { "none".into() } else { format!("{side}³") };
-        let more = samples[i] as f64 / samples[0] as f64;
         let (time, ratio) = (median(&mut seconds[i]) * 1e3, median(&mut ratios[i]));
-        println!("| {name} | {time:.0} | {ratio:.3} | {:.3} | {more:.3} |", PAPER[0].1 / frames);
+        println!("| {name} | {time:.1} | {ratio:.3} | {:.3} |", PAPER[0].1 / frames);
     }
     Ok(())
 }

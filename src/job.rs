@@ -59,7 +59,7 @@ pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
 use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles};
-use objects::Objects;
+use objects::{Given, Objects};
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
@@ -189,7 +189,7 @@ impl Job {
         target: RenderTarget,
         main: Option<&Grid>,
     ) -> Result<Self, Failures> {
-        let automatic = scene.transfer.clone();
+        let given = Given { transfer: scene.transfer.clone(), halos: scene.halos.clone() };
         // The volume, the plan over it, and the plan's warnings of eye and step.
         let volume = match scene.volume.ids {
             Ids::Values => volume,
@@ -221,7 +221,7 @@ impl Job {
         };
         plan.warnings.extend(labels.warning(&scene.volume, &volume));
         if failures.is_empty() && plan.needs_at_seeds(Quantity::Label) {
-            halo_labels(&mut scene, &labels.names, &mut failures);
+            halo_labels(&mut scene, &labels.names, main.is_some(), &mut failures);
         }
         // Values that the scene leaves to the data: iso-values and the transfer function.
         let mut counts = Counts::default();
@@ -291,9 +291,12 @@ impl Job {
             objects: Objects::default(),
         };
         if job.draws_volume() && !job.scene.objects.is_empty() {
-            job.objects = Objects::load(&job, automatic.as_ref())?;
+            job.objects = Objects::load(&job, &given)?;
         }
-        job.pick_foci()?;
+        // Those of a part are the picture's.
+        if main.is_none() {
+            job.pick_foci()?;
+        }
         Ok(job)
     }
 

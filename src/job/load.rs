@@ -12,7 +12,9 @@ use drypoint_scene::mesh::{self, TriangleMesh};
 use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
-use drypoint_scene::tables::{Axis, Background, NodeColor, Scene, Transfer, TransferKind, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{
+    Axis, Background, Halo, LabelKey, NodeColor, Scene, Transfer, TransferKind, VolumeSource, VolumeTable,
+};
 use drypoint_scene::transfer::FunctionError;
 use drypoint_scene::volume::labels::LabelNames;
 use drypoint_scene::volume::read::Fault;
@@ -124,8 +126,15 @@ pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
 }
 
 /// Puts ids in place of the names of labels that seed halos. Names that no label has go to `failures`.
-pub(super) fn halo_labels(scene: &mut Scene, names: &LabelNames, failures: &mut Vec<Failure>) {
-    for (i, halo) in scene.halos.iter_mut().enumerate() {
+pub(super) fn halo_labels(scene: &mut Scene, names: &LabelNames, is_part: bool, failures: &mut Vec<Failure>) {
+    // Those of an object's own data are names there.
+    let elsewhere = |halo: &Halo| halo.object.as_ref().is_some_and(|part| scene.own_data_of(part).is_some());
+    let elsewhere: Vec<bool> = scene.halos.iter().map(elsewhere).collect();
+    for (i, halo) in scene.halos.iter_mut().enumerate().filter(|(i, _)| !elsewhere[*i]) {
+        // A halo of all parts may name labels that this one does not have.
+        if let (true, None, Some(labels)) = (is_part, &halo.object, &mut halo.seed.labels) {
+            labels.retain(|label| !matches!(label, LabelKey::Name(name) if names.id(name).is_none()));
+        }
         for (j, name) in halo.seed.resolve_labels(|name| names.id(name)).err().into_iter().flatten() {
             let position = scene.given.position(&format!("halo[{i}].seed.labels[{j}]"));
             failures.push(Failure::new(format!("there is no label {name:?}"), position, known_label(&name, names)));

@@ -10,7 +10,7 @@ use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
+use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::volume::{Anatomy, Selection, Volume, read};
 use rayon::prelude::*;
@@ -38,13 +38,20 @@ struct ObjectPart {
     grid: Grid,
 }
 
+/// Tables of the picture's scene as it gives them, for objects with data of their own.
+pub(super) struct Given {
+    /// The function. An automatic one is found from their data.
+    pub(super) transfer: Option<Transfer>,
+    /// The halos. Names of labels are theirs.
+    pub(super) halos: Vec<Halo>,
+}
+
 impl Objects {
-    /// Loads the objects of a job, of which everything else is loaded. `automatic` is the picture's function as the scene gives it, for
-    /// objects with data of their own: an automatic one is found from these.
+    /// Loads the objects of a job, of which everything else is loaded.
     ///
     /// # Errors
     /// Data that cannot be read, and what each part of a picture of its own could be refused for.
-    pub(super) fn load(main: &Job, automatic: Option<&Transfer>) -> Result<Self, Failures> {
+    pub(super) fn load(main: &Job, given: &Given) -> Result<Self, Failures> {
         let (scene, volume) = (&main.scene, &main.volume);
         let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
         let mut failures = Vec::new();
@@ -82,11 +89,14 @@ impl Objects {
         // The parts, each as a picture of its own.
         let mut parts = Vec::new();
         for (object, role) in scene.parts() {
-            let mut of_part = scene.of_part(object, role);
             let table = &scene.objects[object];
+            let mut of_part = match table.volume {
+                None => scene.of_part(object, role),
+                Some(_) => Scene { halos: given.halos.clone(), ..scene.clone() }.of_part(object, role),
+            };
             let has_function = table.transfer.is_some() || table.ghost.as_ref().is_some_and(|g| g.transfer.is_some());
             if table.volume.is_some() && !has_function {
-                of_part.transfer = automatic.cloned();
+                of_part.transfer.clone_from(&given.transfer);
             }
             let data = data(object);
             let job = Job::with_shared(of_part, data.clone(), RenderTarget::Picture, Some(volume.grid()))?;
@@ -153,6 +163,10 @@ impl ObjectPart {
     fn scene_of(&self, scene: &Scene) -> (Scene, Plan) {
         let mut of_part = scene.of_part(self.object, self.role);
         of_part.transfer = self.job.scene.transfer.clone();
+        // The labels are ids of its own data.
+        for (halo, own) in of_part.halos.iter_mut().zip(&self.job.scene.halos) {
+            halo.seed.labels.clone_from(&own.seed.labels);
+        }
         if scene.has_own_shading(self.object, self.role) {
             // Its table has been read.
             of_part.shading = self.job.scene.shading.clone();

@@ -47,7 +47,10 @@ impl Job {
         let key = format!("object[{object}].strokes");
         let own = match table.volume {
             None => None,
-            Some(_) => Some(Self::load(self.scene.of_part(object, Role::Selection))?),
+            Some(_) => {
+                let scene = self.scene.of_part(object, Role::Selection);
+                Some(Self::load(Scene { halos: Vec::new(), ..scene })?)
+            }
         };
         let job = own.as_ref().unwrap_or(self);
         // The picture as it is seen without objects and halos, whose rays are the picture's.

@@ -39,6 +39,11 @@ pub(crate) fn differences_among(scene: &str, lines: impl Fn(&Job) -> Option<Frag
     }))
 }
 
+/// The largest difference between the reference and shaders in f64; none without an adapter.
+pub(crate) fn difference_in_double(scene: &str) -> Option<f64> {
+    difference_among_with(scene, |_| None, None)
+}
+
 /// The job of a scene's text.
 pub(crate) fn load(scene: &str) -> Job {
     let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
@@ -47,14 +52,14 @@ pub(crate) fn load(scene: &str) -> Job {
 
 /// The largest difference between the reference and shaders in f64 with a fault: a text in the place of another one.
 pub(crate) fn difference_with(scene: &str, fault: (&str, &str)) -> Option<f64> {
-    difference_among_with(scene, |_| None, fault)
+    difference_among_with(scene, |_| None, Some(fault))
 }
 
-/// This difference with lines inside the picture.
+/// This difference with lines inside the picture, and a fault if there is one.
 pub(crate) fn difference_among_with(
     scene: &str,
     lines: impl Fn(&Job) -> Option<Fragments>,
-    (old, new): (&str, &str),
+    fault: Option<(&str, &str)>,
 ) -> Option<f64> {
     let gpu = gpu()?;
     let job = load(scene);
@@ -64,13 +69,20 @@ pub(crate) fn difference_among_with(
     let (truth, _) = reference.frame(&|_| ());
     let drawn = GpuJob::new(&job, &gpu, Precision::Double).unwrap_or_else(|failure| panic!("{failure}"));
     let edit = |text: String| {
+        let Some((old, new)) = fault else { return text };
         assert_eq!(text.matches(old).count(), 1, "{old}");
         text.replace(old, new)
     };
     let mut renderer = drawn.edited(&edit).unwrap_or_else(|failure| panic!("{failure}"));
     let drawn = renderer.merge(lines).and_then(|()| renderer.frame(&|_| ())).unwrap_or_else(|error| panic!("{error}"));
     let pairs = truth.layers.iter().zip(&drawn.layers).flat_map(|(a, b)| a.channels.iter().zip(&b.channels));
-    Some(pairs.flat_map(|(a, b)| a.iter().zip(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
+    // Depths of nothing are +∞ in both, and what is no number is far from every one.
+    let apart = |(a, b): (&f64, &f64)| match (a - b).abs() {
+        _ if a == b => 0.0,
+        apart if apart.is_nan() => f64::INFINITY,
+        apart => apart,
+    };
+    Some(pairs.flat_map(|(a, b)| a.iter().zip(b)).map(apart).fold(0.0, f64::max))
 }
 
 const TORUS: &str = r##"

@@ -18,6 +18,8 @@ mod sabotage_of_halos;
 mod sabotage_of_lines;
 #[path = "sabotage/meshes.rs"]
 mod sabotage_of_meshes;
+#[path = "sabotage/objects.rs"]
+mod sabotage_of_objects;
 #[path = "sabotage/points.rs"]
 mod sabotage_of_points;
 #[path = "sabotage/rays.rs"]

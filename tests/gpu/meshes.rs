@@ -89,7 +89,12 @@ impl Meshes {
 /// The unit sphere as an octahedron whose triangles are cut in four so many times.
 fn ball(level: usize) -> (Vec<DVec3>, Vec<[usize; 3]>) {
     let mut corners = vec![DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
-    let mut faces: Vec<[usize; 3]> = (0..8).map(|i| [3 * (i & 1), 1 + 3 * (i >> 1 & 1), 2 + 3 * (i >> 2)]).collect();
+    // Corners of each side go around it the same way, as seen from outside.
+    let side = |i: usize| {
+        let [a, b, c] = [3 * (i & 1), 1 + 3 * (i >> 1 & 1), 2 + 3 * (i >> 2)];
+        if i.count_ones().is_multiple_of(2) { [a, b, c] } else { [a, c, b] }
+    };
+    let mut faces: Vec<[usize; 3]> = (0..8).map(side).collect();
     for _ in 0..level {
         let cut = |&[a, b, c]: &[usize; 3]| {
             let mut middle = |a: usize, b: usize| {

@@ -63,6 +63,33 @@ pub(crate) static THEME: Theme = Theme::new(
             why: "1 − ½·2 = 0",
             measure: faded_twice,
         },
+        Case {
+            name: "halos about a membership of 0 everywhere, of all parts and of the background",
+            breaks: "seeds of a box of nothing; a cutaway of everything",
+            done: "a set without members seeds nothing [VS-2]",
+            of: "numbers that differ from those of no object, intensities with them",
+            bound: 0.0,
+            why: "a selection without a box is met by no ray",
+            measure: halos_of_nothing,
+        },
+        Case {
+            name: "halos of a selection a million voxels away",
+            breaks: "seeds in planes and boxes that far away",
+            done: "a set seeds in its own box [VS-2]",
+            of: "the largest difference of a channel to the ghost alone, and intensities of the selection's own halo",
+            bound: 1e-12,
+            why: "nothing of the selection is on the picture's rays, nor on those of the guard band",
+            measure: halos_far_away,
+        },
+        Case {
+            name: "halos of a selection mirrored onto itself, then by a matrix",
+            breaks: "normals that a negative determinant turns inside out: seeds by direction on the other side",
+            done: "s of the moved field's normal [VS-2]",
+            of: "the largest difference of a channel; floor 0",
+            bound: 1e-9,
+            why: "positions are rounded once more",
+            measure: halos_of_a_mirror,
+        },
     ],
 );
 
@@ -150,4 +177,59 @@ fn faded_twice() -> f64 {
     let plain = channels(0.3, "");
     assert!(largest_difference(&plain, &object("0.5")) > 0.01);
     largest_difference(&object("0.5"), &object("1"))
+}
+
+/// A halo from one side about each of the parts that are named; none: about all.
+fn halos(parts: &[&str]) -> String {
+    let halo = |part: &&str| {
+        let object = if part.is_empty() { String::new() } else { format!("object = \"{part}\"\n") };
+        format!(
+            "[[halo]]\nname = \"about {part}\"\n{object}floor = 0\nexponents = [0.5, 3]\n\
+             seed = {{ value = \"opacity\", direction = {{ toward = 60, width = 90 }} }}\n"
+        )
+    };
+    parts.iter().map(halo).collect()
+}
+
+/// The channels of a scene with layers of its halos.
+fn channels_with_halos(parts: &[&str], more: &str) -> Vec<f64> {
+    let layers: Vec<String> = (0..parts.len()).map(|i| format!("\"halo{i}\"")).collect();
+    let layers = format!("samples = 1\nlayers = [\"beauty\", {}]\n", layers.join(", "));
+    let text = scene(0.6, &format!("{}{more}", halos(parts))).replace("samples = 1\n", &layers);
+    channels_of(&text)
+}
+
+/// The channels of the last halo.
+fn last(channels: &[f64]) -> &[f64] {
+    &channels[channels.len() - 480..]
+}
+
+fn halos_of_nothing() -> f64 {
+    let object =
+        "[[object]]\nvalue = [[0, 0]]\nmove = [4, 0, 0]\nrotate = { angle = 30 }\nghosting = 1\nfunnel = \"3 px\"\n";
+    let plain = channels_with_halos(&["", "background"], "");
+    let with = channels_with_halos(&["", "background"], object);
+    assert!(last(&plain).iter().filter(|h| **h > 0.05).count() > 20);
+    plain.iter().zip(&with).filter(|(a, b)| a.to_bits() != b.to_bits()).count() as f64
+}
+
+fn halos_far_away() -> f64 {
+    let product = "[camera]\n[combine]\nfuzzy = \"product\"\n";
+    let object = "[[object]]\nname = \"all\"\nmove = [1e6, 0, 0]\n";
+    let plain = channels_with_halos(&[""], product);
+    assert!(last(&plain).iter().filter(|h| **h > 0.05).count() > 20);
+    let with = channels_with_halos(&[""], &format!("{product}{object}"));
+    let own = channels_with_halos(&["all"], &format!("{product}{object}"));
+    let most = last(&own).iter().copied().fold(0.0, f64::max);
+    largest_difference(&plain, &with).max(most)
+}
+
+fn halos_of_a_mirror() -> f64 {
+    let clear = "[object.ghost.transfer]\nkind = \"regular\"\nnodes = [{ at = 0, color = \"red\", opacity = 0 }]\n";
+    let matrix = "matrix = [[1, 0, 0, 0], [0, -1, 0, 19], [0, 0, 1, 0], [0, 0, 0, 1]]\n";
+    let plain = channels_with_halos(&[""], "");
+    assert!(last(&plain).iter().filter(|h| **h > 0.05).count() > 20);
+    let both = ["scale = [1, 1, -1]\n", matrix]
+        .map(|motion| channels_with_halos(&[""], &format!("[[object]]\nname = \"all\"\n{motion}{clear}")));
+    both.iter().map(|picture| largest_difference(&plain, picture)).fold(0.0, f64::max)
 }

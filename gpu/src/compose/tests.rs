@@ -2,21 +2,25 @@
 
 use super::shader;
 use crate::renderer::drawn_layers;
-use crate::{GpuError, Hiding, Inputs, Interpolation, Precision, volume_stippling};
+use crate::{GpuError, Hiding, Inputs, Interpolation, ObjectInputs, PartInputs, Precision, volume_stippling};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::file::{Overrides, parse};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::measured::{Measured, PaddedNumbers};
+use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::shot::{Axis, GradientEstimator, Kernel, Reconstruction, Shot, VolumeFacts};
+use drypoint_scene::shot::{
+    Axis, Clipping, GradientEstimator, Kernel, Object, PartFacts, Reconstruction, SelectionFacts, Shot, VolumeFacts,
+};
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Iso, Scene};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::labels::LabelVolume;
-use drypoint_scene::volume::{Bricks, Volume, Voxels};
+use drypoint_scene::volume::{Bricks, Selection, Volume, Voxels};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -167,6 +171,29 @@ const CHOICES: &[Choice] = &[
             &[("[halo]", "seed.labels = [1]"), ("volume", "labels = \"l.nrrd\"")],
         ],
     ),
+    (
+        "objects",
+        &[
+            &[],
+            &[("[object]", "name = \"a\"\nselection = \"s.nrrd\"\nghosting = 0.5")],
+            &[
+                (
+                    "[object]",
+                    "name = \"a\"\nvalue = [[1, 0], [4, 1]]\nmove = [1, 0, 0]\nghosting = 0.5\ncut = \"object\"",
+                ),
+                ("combine", "fuzzy = \"product\""),
+                ("[intersection]", "object = \"a\"\nwith = \"ghost\"\ncolor = \"i.png\""),
+            ],
+            &[
+                (
+                    "[object]",
+                    "name = \"a\"\nvolume = \"b.nrrd\"\nscale = [1, 2, -1]\nghosting_of_ghost = 1\nfunnel = \"2 px\"",
+                ),
+                ("[intersection]", "object = \"a\"\nopacity = \"xor\"\ncolor = \"#ff0000\""),
+            ],
+        ],
+    ),
+    ("meshes", &[&[], &[("[mesh]", "file = \"m.ply\"")]]),
     // Not of the scene's text.
     ("picture behind", &[&[], &[]]),
     ("labels elsewhere", &[&[], &[]]),
@@ -218,15 +245,16 @@ fn measured(volume: &Volume, has_range: bool, has_bricks: bool) -> Measured {
     };
     let bricks = Bricks::new(volume.dims(), |_| vec![[0.0, 10.0]; 2]);
     Measured {
-        numbers: numbers(),
-        voxels: Some(numbers()),
-        smoothed: Some(numbers()),
+        numbers: Arc::new(numbers()),
+        voxels: Some(Arc::new(numbers())),
+        smoothed: Some(Arc::new(numbers())),
         regression: Some(vec![0.0; 64 * 3 * 27]),
         base: 0.0,
         gradient_range: has_range.then_some([0.0, 1.0]),
         gradient_scale: 1.0,
         label_distances: [0, 1].map(|_| Some(vec![0.0; volume.grid().len()])),
         bricks: has_bricks.then_some(bricks),
+        mesh_boxes: Arc::new([BoxNode { lo: DVec3::ZERO, hi: DVec3::ONE, first: 0, is_leaf: true }]),
     }
 }
 
@@ -256,27 +284,88 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
     let view = View::new(&scene.camera, volume.grid(), [16, 12]).map_err(|e| e.to_string())?;
     let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
     let shot = Shot::resolve(&scene, &Plan::new(&scene), facts, function, view).map_err(|e| e.to_string())?;
-    let style = |name: &String| Style::from_straight(name, 2, &[[0.5; 4]; 4], true).unwrap();
-    let of_function: &[String] =
-        if let Function::Style { names, .. } = &*shot.objects[0].function { names } else { &[] };
-    let styles: Vec<Style> = of_function.iter().chain(&shot.clipping.styles).map(style).collect();
     let of_labels = Grid::with_spacing([4, 3, 2], [2.0; 3]).unwrap();
     let of_labels = if labels_are_elsewhere { &of_labels } else { volume.grid() };
     let labels = LabelVolume::new(&ids(of_labels)).map_err(|e| e.to_string())?;
-    let further = [0, 1].map(|axis| {
-        let over = shot.objects[0].function.nodes().2.map(|rows| &rows.over[axis]);
-        matches!(over, Some(Axis::Volume(_))).then_some(volume)
-    });
-    let [object] = &shot.objects;
-    let measured = measured(volume, object.gradient_range.is_some(), object.skip_empty);
+    let (shot, parts) = with_objects(shot, &scene, volume)?;
+    let styles_of = |object: &Object, clipping: &Clipping| -> Vec<Style> {
+        let style = |name: &String| Style::from_straight(name, 2, &[[0.5; 4]; 4], true).unwrap();
+        let of_function: &[String] = if let Function::Style { names, .. } = &*object.function { names } else { &[] };
+        of_function.iter().chain(&clipping.styles).map(style).collect()
+    };
     let background = if has_picture { Backdrop::Pixels(&[[0.5; 4]; 16 * 12]) } else { Backdrop::Color([0.5; 4]) };
-    let inputs =
-        Inputs { volume, measured: &measured, labels: Some(&labels), further, styles: &styles, background, has_lines };
+    let of_parts = shot.combination.iter().flat_map(|combination| &combination.parts);
+    let drawn: Vec<_> = std::iter::once((&shot.objects[0], &shot.clipping))
+        .chain(of_parts.map(|part| (&part.drawn, &part.clipping)))
+        .map(|(object, clipping)| {
+            let measured = measured(volume, object.gradient_range.is_some(), object.skip_empty);
+            Drawn { object, measured, styles: styles_of(object, clipping) }
+        })
+        .collect();
+    let selection = Selection::from_labels(&labels, &[1]).map_err(|e| e.to_string())?;
+    let picture = IntersectionPicture { size: [2, 1], pixels: vec![[0.5; 4]; 2], has_opacity: true };
+    let parts = drawn[1..].iter().zip(parts);
+    let objects = ObjectInputs {
+        parts: parts
+            .map(|(drawn, place)| PartInputs { inputs: drawn.inputs(volume, &labels, background), place })
+            .collect(),
+        selections: scene.objects.iter().map(|object| object.selection.as_ref().map(|_| &selection)).collect(),
+        pictures: shot.combination.iter().flat_map(|c| &c.intersections).map(|_| Some(&picture)).collect(),
+    };
+    let triangle = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], None, vec![[0, 1, 2]]).unwrap();
+    let meshes = vec![triangle; shot.meshes.len()];
+    let inputs = Inputs { has_lines, objects, meshes: &meshes, ..drawn[0].inputs(volume, &labels, background) };
     match shader(&shot, &drawn_layers(&shot), &inputs, precision, interpolation) {
         Ok((shader, _)) => Ok(Some(shader.text(precision))),
         Err(GpuError::Missing { .. }) => Ok(None),
         Err(error) => Err(error.to_string()),
     }
+}
+
+/// An object of a shot with what it reads.
+struct Drawn<'a> {
+    object: &'a Object,
+    measured: Measured,
+    styles: Vec<Style>,
+}
+
+impl Drawn<'_> {
+    fn inputs<'d>(&'d self, volume: &'d Volume, labels: &'d LabelVolume, background: Backdrop<'d>) -> Inputs<'d> {
+        let further = [0, 1].map(|axis| {
+            let over = self.object.function.nodes().2.map(|rows| &rows.over[axis]);
+            matches!(over, Some(Axis::Volume(_))).then_some(volume)
+        });
+        let (measured, styles, objects) = (&self.measured, &*self.styles, ObjectInputs::default());
+        let labels = Some(labels);
+        Inputs { volume, measured, labels, further, styles, background, meshes: &[], has_lines: false, objects }
+    }
+}
+
+/// A shot with the objects of a scene, all of the same volume, and for each part the place of its volume among those uploaded.
+fn with_objects(shot: Shot, scene: &Scene, volume: &Volume) -> Result<(Shot, Vec<usize>), String> {
+    if scene.objects.is_empty() {
+        return Ok((shot, Vec::new()));
+    }
+    let grid = volume.grid();
+    let main = VolumeFacts { grid, is_integer: false };
+    let index_box = Some([DVec3::ONE, DVec3::new(5.0, 4.0, 3.0)]);
+    let selections: Vec<_> = scene.objects.iter().map(|_| SelectionFacts { grid: grid.clone(), index_box }).collect();
+    let scenes: Vec<Scene> = scene.parts().map(|(object, role)| scene.of_part(object, role)).collect();
+    let plans: Vec<Plan> = scenes.iter().map(Plan::new).collect();
+    let facts = scenes.iter().zip(&plans).map(|(scene, plan)| {
+        let function = match &scene.transfer {
+            Some(transfer) => {
+                Function::new(transfer, [0.0, 10.0], volume, &|_| Some(1)).map_err(|e| format!("{e:?}"))?
+            }
+            None => Some(Function::nothing()),
+        };
+        let function = Arc::new(function.ok_or("the function is to be found")?);
+        Ok(PartFacts { scene, plan, function, grid, is_integer: false, range: [0.0, 10.0] })
+    });
+    let facts: Vec<PartFacts<'_>> = facts.collect::<Result<_, String>>()?;
+    let places = scene.parts().map(|(object, _)| usize::from(scene.objects[object].volume.is_some())).collect();
+    let shot = shot.with_objects(scene, main, [0.0, 10.0], &selections, &facts).map_err(|e| e.to_string())?;
+    Ok((shot, places))
 }
 
 /// The texts of tests of hidden points.
@@ -308,6 +397,23 @@ fn tests_of_points() -> Vec<String> {
         }
     }
     texts
+}
+
+/// The text of a shader in which the names of attached shaders are as their modules have them.
+fn without_suffixes(text: &str) -> String {
+    let mut text = text.replace("_of_selection", "");
+    for part in 0..2 {
+        let (mut plain, mut rest, suffix) = (String::new(), text.as_str(), format!("_{part}"));
+        while let Some((before, after)) = rest.split_once(&suffix) {
+            plain.push_str(before);
+            if after.starts_with(|c: char| c.is_ascii_alphanumeric() || c == '_') {
+                plain.push_str(&suffix);
+            }
+            rest = after;
+        }
+        text = plain + rest;
+    }
+    text
 }
 
 /// Ids on a grid.
@@ -345,16 +451,18 @@ fn modules() -> Vec<(PathBuf, String)> {
     files("src", "wgsl").into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
 }
 
-/// Each pair of alternatives that a scene can have occurs in one of the shaders, and so does each module; that for viewers
-/// stands alone.
+/// Each pair of alternatives that a scene can have occurs in one of the shaders, and so does each module; those for viewers
+/// and for the maps of funnels stand alone.
 #[test]
 fn every_pair_of_effects_has_a_valid_shader() {
     let sizes: Vec<usize> = CHOICES.iter().map(|(_, alternatives)| alternatives.len()).collect();
     let mut modules = modules();
     for precision in [Precision::Single, Precision::Double] {
-        let shader = crate::ray::present::text(precision, [16, 12], 5, 1);
-        validate(&shader).unwrap_or_else(|error| panic!("{error}"));
-        modules.retain(|(_, module)| !shader.contains(module));
+        let of_funnels = crate::volumeshop::funnel::text_of_maps(precision, [16, 12]);
+        for shader in [crate::ray::present::text(precision, [16, 12], 5, 1), of_funnels] {
+            validate(&shader).unwrap_or_else(|error| panic!("{error}"));
+            modules.retain(|(_, module)| !shader.contains(module));
+        }
     }
     let mut seen = BTreeSet::new();
     let [mut state, mut valid] = [1u64, 0];
@@ -386,15 +494,18 @@ fn every_pair_of_effects_has_a_valid_shader() {
         let Ok(scene) = parse(&text, Path::new("scene.toml"), &Overrides::default()) else { continue };
         let Ok(Some(shader)) = composed(&scene, &volume(is("mask")), beside, precision) else { continue };
         validate(&shader).unwrap_or_else(|error| panic!("{text}\n{error}"));
-        modules.retain(|(_, module)| !shader.contains(module));
+        let of_parts = without_suffixes(&shader);
+        modules.retain(|(_, module)| !shader.contains(module) && !of_parts.contains(module.trim_end()));
         valid += 1;
         seen.extend(pairs);
     }
     // Pairs without a scene: analytic Hessians of kernels that are not smooth enough, neither a function nor a surface, halos
-    // on shells, and halos with lines.
+    // on shells, beside objects and with lines.
     let impossible = [("Hessian", 1, "kernel", 0), ("Hessian", 1, "kernel", 4), ("surface", 0, "material", 0)];
     let of_halos = |a, b| (1..6).map(move |i| if a == "halos" { (a, i, b, 1) } else { (a, 1, b, i) });
-    let impossible = impossible.into_iter().chain(of_halos("halos", "planes")).chain(of_halos("lines", "halos"));
+    let of_objects = (1..4).flat_map(|i| (1..6).map(move |j| ("objects", i, "halos", j)));
+    let impossible = impossible.into_iter().chain(of_halos("halos", "planes")).chain(of_objects);
+    let impossible = impossible.chain(of_halos("lines", "halos"));
     let impossible: Vec<_> = impossible.map(|(a, i, b, j)| [place(a), i, place(b), j]).collect();
     let all = (0..sizes.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let all = all

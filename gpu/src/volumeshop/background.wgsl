@@ -52,7 +52,7 @@ fn look_here(k: i32) -> bool {
 
 // The set of the background at sample k, whose selection set has this membership.
 fn background_set(k: i32, weight: real) -> Found {
-    if (!(weight > 0.0) || k < own_run.x || k > own_run.y || is_cut_away(k)) {
+    if (!(weight > 0.0) || k < own_run.x || k > own_run.y || is_ghosted_away(k)) {
         return Found();
     }
     var sample: Sample;

@@ -82,6 +82,13 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot) {
     shader.bind(26, "the bands of funnels", Data::Words(bands));
 }
 
+/// The shader that makes maps of far depths, for a picture of `size`.
+pub(crate) fn text_of_maps(precision: Precision, [width, height]: [usize; 2]) -> String {
+    let number = if precision == Precision::Single { SINGLE } else { DOUBLE };
+    let sizes = format!("const WIDTH = {width};\nconst HEIGHT = {height};");
+    format!("{}\n{sizes}\n{}", number.text, module!("funnel_maps").text)
+}
+
 /// Passes that map the funnels of a shot, with their buffers.
 pub(crate) struct FunnelPasses {
     find: wgpu::ComputePipeline,
@@ -139,12 +146,7 @@ impl FunnelPasses {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         })?;
-        let number = if precision == Precision::Single { SINGLE } else { DOUBLE };
-        let text_of_maps = format!(
-            "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\n{}",
-            number.text,
-            module!("funnel_maps").text
-        );
+        let text_of_maps = text_of_maps(precision, shot.view.size);
         let smooth = |entry_point| pipeline(gpu, text_of_maps.clone(), entry_point, &[&layout]);
         let smooth = [smooth("dilate")?, smooth("smooth_rows")?, smooth("map_funnels")?];
         let group = gpu.attempt("the funnels", || {

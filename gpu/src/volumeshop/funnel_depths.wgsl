@@ -19,6 +19,8 @@ fn find_depths(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = point_of(pixel, 0, 1);
     aim_parts(point);
     let ray = ray_through(point.x, point.y);
+    begin_ray(ray);
+    aim_background(ray);
     let plane = funnel_plane(i32(id.z));
     funnel_depths[band.y + at.y * size.x + at.x] = select(real(NO_DEPTH), depth_of_plane(ray, plane), plane > -NOT_MET);
 }

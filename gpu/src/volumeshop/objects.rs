@@ -126,7 +126,7 @@ fn ghosts(cutaways: usize) -> String {
             format!("    if ({}) {{\n        let e = enhancement(own_ray, a);\n{factors}    }}\n", any.join(" || "));
     }
     format!(
-        "\nfn is_cut_away(k: i32) -> bool {{\n{gone}    return false;\n}}\n\n\
+        "\nfn is_ghosted_away(k: i32) -> bool {{\n{gone}    return false;\n}}\n\n\
          fn ghosted(k: i32, a: Attributes) -> real {{\n    var factor = real(1.0);\n{factors}    return factor;\n}}\n"
     )
 }

@@ -19,6 +19,7 @@ mod prepared;
 mod prepared_combination;
 mod prepared_halos;
 mod prepared_meshes;
+mod prepared_seeds;
 mod prepared_surface;
 mod refinement;
 mod render;

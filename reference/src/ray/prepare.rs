@@ -76,8 +76,9 @@ pub(super) fn prepare<'a, R: Real>(
     if let Some(skip) = halos.as_ref().and_then(|halos| halos.skip.as_ref()) {
         counts.bytes.insert("skip_seeds".into(), skip.bytes() as u64);
     }
-    let combination =
-        combination.map(|c| PreparedCombination::new(c, inputs, &camera, &mut fields, counts)).transpose()?;
+    let combination = combination
+        .map(|c| PreparedCombination::new(c, &shot.halos, inputs, &camera, &mut fields, counts))
+        .transpose()?;
     let mut prepared = Prepared {
         object: prepared,
         combination,

@@ -5,6 +5,7 @@ use super::inputs::{Inputs, RenderError};
 use super::lattice::IndexRay;
 use super::prepare::{Camera, Fields, Place, prepare_object};
 use super::prepared::Prepared;
+use super::prepared_seeds::{PreparedSeeds, can_seed_at};
 use super::sample::PreparedObject;
 use crate::field::Field;
 use crate::number::{Mat3, Real};
@@ -15,7 +16,8 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::shot::{
-    Combination, Cutaway, Fuzzy, Intersection, Membership, Object, Part, Role, SelectionParams, placed,
+    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Membership, Part, Role, SelectionParams,
+    placed,
 };
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
@@ -64,22 +66,35 @@ pub(super) struct PreparedPart<'v, R> {
     pub(super) is_moved: bool,
     /// Whether its samples are those of the background: the same volume at the same place.
     pub(super) is_of_background: bool,
-    /// The bricks of its volume in which its function can show something; none where nothing is skipped.
-    shows: Option<Shows>,
+    /// The seeds of halos among its samples; none: no halo takes it.
+    pub(super) seeds: Option<PreparedSeeds<'v>>,
+    /// The bricks of its volume; none where nothing is skipped.
+    bricks: Option<PartBricks>,
 }
 
-/// Which bricks can show something.
-struct Shows {
+/// Which bricks of a part's volume its samples are asked in.
+struct PartBricks {
     bricks: Bricks,
-    /// For each brick, whether it can.
-    can: Vec<bool>,
+    /// For each brick, whether the part's function can show something in it.
+    show: Vec<bool>,
+    /// For each brick, whether h_v of some halo can be above 0 in it.
+    seed: Vec<bool>,
 }
 
 /// A cutaway with what depends on the camera.
 pub(super) struct PreparedCutaway {
     pub(super) params: Cutaway,
     /// The map of its funnel; none: a hard cut.
-    pub(super) funnel: Option<FunnelMap>,
+    pub(super) funnel: Option<PreparedFunnel>,
+}
+
+/// The map of a funnel over the picture and the guard band of its halos, whose seeds are cut as in a larger picture.
+pub(super) struct PreparedFunnel {
+    map: FunnelMap,
+    /// Pixels of the map across and down.
+    size: [usize; 2],
+    /// Pixels of the guard band.
+    margin: usize,
 }
 
 /// An intersection ready for samples.
@@ -95,6 +110,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     /// Data that were not handed over, and what a part of a picture of its own could be refused for.
     pub(super) fn new(
         combination: &Combination,
+        halos: &Halos,
         inputs: &Inputs<'v>,
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
@@ -115,7 +131,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             .map(|(part, of_part)| {
                 let selection = &combination.selections[part.object];
                 let motion = selection.motion.filter(|_| part.role == Role::Selection);
-                PreparedPart::new(part, motion, (inputs.volume, of_part), camera, fields, counts)
+                PreparedPart::new((part, motion), halos, (inputs.volume, of_part), camera, fields, counts)
             })
             .collect();
         let parts = parts?;
@@ -158,16 +174,18 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         cutaway: usize,
         prepared: &Prepared<'_, R>,
         counts: &mut Counts,
-    ) -> Option<FunnelMap> {
+    ) -> Option<PreparedFunnel> {
         let params = self.cutaways[cutaway].params;
         if params.funnel <= 0.0 {
             return None;
         }
-        let (size, guard) = (prepared.view.size, guard(params.funnel));
+        let of_halos = prepared.halos.as_ref().filter(|halos| halos.seeds.is_some());
+        let margin = of_halos.map_or(0, |halos| halos.guard().div_ceil(prepared.rays_across));
+        let (size, guard) = (prepared.view.size.map(|n| n + 2 * margin), guard(params.funnel));
         let [width, height] = size.map(|n| n + 2 * guard);
         let row = |y: usize| {
             let mut counts = Counts::default();
-            let centre = |i: usize| i as f64 - guard as f64 + 0.5;
+            let centre = |i: usize| i as f64 - (guard + margin) as f64 + 0.5;
             let depth = |x: usize| {
                 depth_of_part(prepared, self, [centre(x), centre(y)], (params.part, params.cut), &mut counts)
             };
@@ -180,7 +198,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             depths.extend(row);
             counts.add(&own);
         }
-        Some(FunnelMap::new(size, params.funnel, &depths))
+        Some(PreparedFunnel { map: FunnelMap::new(size, params.funnel, &depths), size, margin })
     }
 
     /// Whether the ray through a point of the picture can meet an object, or a cutaway for one.
@@ -190,8 +208,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             let line = IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, grid).line();
             ends.is_some_and(|ends| through_box(line, ends).is_some())
         };
-        let in_picture = [0, 1].map(|a| (point[a].max(0.0) as usize).min(prepared.view.size[a] - 1));
-        let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|map| map.cuts(in_picture));
+        let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
         self.selections
             .iter()
             .any(|s| through(&s.here, s.index_box) || s.there.as_ref().is_some_and(|grid| through(grid, s.index_box)))
@@ -203,6 +220,24 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         for (prepared, part) in self.parts.iter_mut().zip(&combination.parts) {
             prepared.object.shader.turn(&part.drawn, view);
         }
+    }
+}
+
+impl PreparedFunnel {
+    /// d̃ on the ray through a point of the picture: [`FunnelMap::depth`].
+    pub(super) fn depth(&self, point: [f64; 2], z_in: f64, d: f64) -> f64 {
+        self.map.depth(self.pixel(point), z_in, d)
+    }
+
+    /// Whether the pixel of a point is cut.
+    fn cuts(&self, point: [f64; 2]) -> bool {
+        self.map.cuts(self.pixel(point))
+    }
+
+    /// The pixel of the map at a point of the picture; beyond its border the nearest one.
+    fn pixel(&self, point: [f64; 2]) -> [usize; 2] {
+        let pixel = |a: usize| (point[a].floor() as i64).saturating_add(self.margin as i64).max(0) as usize;
+        [0, 1].map(|a| pixel(a).min(self.size[a] - 1))
     }
 }
 
@@ -221,8 +256,8 @@ impl<'v, R: Real> PreparedSelection<'v, R> {
 
 impl<'v, R: Real> PreparedPart<'v, R> {
     fn new(
-        part: &Part,
-        motion: Option<DAffine3>,
+        (part, motion): (&Part, Option<DAffine3>),
+        halos: &Halos,
         (main, inputs): (&Volume, &Inputs<'v>),
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
@@ -235,27 +270,53 @@ impl<'v, R: Real> PreparedPart<'v, R> {
         let to_data = volume.grid().axes() * grid.inverse_axes();
         let moved = (grid.axes() != volume.grid().axes()).then(|| Mat3::from_glam(to_data.transpose()));
         let field = fields.of(volume, &part.drawn)?;
-        let shows = part.drawn.skip_empty.then(|| Shows::new(&field, &part.drawn));
+        let bricks = part.drawn.skip_empty.then(|| PartBricks::new(&field, part));
         let place = Place { grid, moved };
         let object = prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
-        Ok(Self { object, selection: part.object, is_moved: motion.is_some(), is_of_background, shows })
+        let is_moved = motion.is_some();
+        let seeds = seeds_of(part, halos, inputs, &object)?;
+        Ok(Self { object, selection: part.object, is_moved, is_of_background, seeds, bricks })
     }
 
     /// Whether a sample in a cell of its volume can show something.
     #[inline]
     pub(super) fn can_show(&self, cell: [usize; 3]) -> bool {
-        self.shows.as_ref().is_none_or(|shows| shows.can[shows.bricks.of_cell(cell)])
+        self.bricks.as_ref().is_none_or(|own| own.show[own.bricks.of_cell(cell)])
+    }
+
+    /// Whether a sample in a cell of its volume can seed a halo.
+    #[inline]
+    pub(super) fn can_seed(&self, cell: [usize; 3]) -> bool {
+        self.bricks.as_ref().is_none_or(|own| own.seed[own.bricks.of_cell(cell)])
     }
 }
 
-impl Shows {
-    /// Looks at the bricks of a field.
-    fn new<R: Real>(field: &Field<'_, R>, object: &Object) -> Self {
-        let bricks = field.bricks();
+impl PartBricks {
+    /// Looks at the bricks of a part's field.
+    fn new<R: Real>(field: &Field<'_, R>, part: &Part) -> Self {
+        let (bricks, function) = (field.bricks(), &part.drawn.function);
         let rounded = |at| R::from_f64(at).to_f64();
-        let can = bricks.ranges.iter().map(|&range| object.function.can_be_visible(range, None, rounded)).collect();
-        Self { bricks, can }
+        let can_show = |&range| function.can_be_visible(range, None, rounded);
+        let seeds = part.seeds.as_ref().map_or(&[][..], |seeds| &seeds.list);
+        let can_seed = |&range| seeds.iter().any(|seed| can_seed_at(seed, function, range, rounded));
+        let show = bricks.ranges.iter().map(can_show).collect();
+        let seed = bricks.ranges.iter().map(can_seed).collect();
+        Self { bricks, show, seed }
     }
+}
+
+/// The seeds of halos among the samples of a part; none where no halo takes it.
+fn seeds_of<'v, R: Real>(
+    part: &Part,
+    halos: &Halos,
+    inputs: &Inputs<'v>,
+    object: &PreparedObject<'v, R>,
+) -> Result<Option<PreparedSeeds<'v>>, RenderError> {
+    let Some(own) = part.seeds.as_ref().filter(|own| own.list.iter().any(HaloSeed::can_seed)) else { return Ok(None) };
+    let with = |(halo, seed): (&HaloParams, &HaloSeed)| HaloParams { seed: seed.clone(), ..halo.clone() };
+    let list: Vec<HaloParams> = halos.list.iter().zip(&own.list).map(with).collect();
+    let of_alpha = object.over_two.as_ref().map(|over_two| over_two.first);
+    PreparedSeeds::new((&list, own.query), inputs, part.drawn.label_lookup, of_alpha).map(Some)
 }
 
 /// The grid of a volume in a world of the anatomical directions `world` ([SPACE-2]).

@@ -2,28 +2,19 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::inputs::{Inputs, RenderError};
-use crate::labels::Labels;
-use crate::volumetric_halos::PreparedHalo;
+use super::prepared_seeds::{PreparedSeeds, can_seed_at};
+use crate::volumetric_halos::{PreparedHalo, guard};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{BlendSpace, SampleQuery, SeedValue, Shot};
-use drypoint_scene::transfer::can_be_above_zero;
+use drypoint_scene::shot::{BlendSpace, SampleQuery, Shot};
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// Halos, and what samples are asked for their seeds.
 pub(super) struct PreparedHalos<'v> {
     pub(super) list: Vec<PreparedHalo>,
-    /// The query of samples that can seed.
-    pub(super) query: SampleQuery,
-    /// The part of the query that α_u of a function over two quantities has not asked before.
-    pub(super) rest: SampleQuery,
-    /// Whether some h_v is α_u.
-    pub(super) reads_opacity: bool,
-    /// Whether there is some h_p.
-    pub(super) reads_places: bool,
-    /// The labels, if there is some h_l.
-    pub(super) labels: Option<Labels<'v>>,
-    /// The bricks in which a sample can seed; none where nothing is skipped.
+    /// The seeds among the samples of the volume; none: all halos take other parts.
+    pub(super) seeds: Option<PreparedSeeds<'v>>,
+    /// The bricks of the volume in which a sample can seed; none where nothing is skipped.
     pub(super) skip: Option<BrickOccupancy>,
 }
 
@@ -46,14 +37,11 @@ impl<'v> PreparedHalos<'v> {
         let encode = shot.blend_space == BlendSpace::Srgb;
         let is_watched = |i: usize| shot.layers.contains(&LayerKind::Halo(i));
         let list = halos.list.iter().enumerate().map(|(i, halo)| PreparedHalo::new(halo, encode, is_watched(i)));
-        let list: Vec<PreparedHalo> = list.collect::<Result<_, _>>()?;
-        let any = |is: fn(&PreparedHalo) -> bool| list.iter().any(is);
-        let labels = if any(|halo| halo.seeding.labels.is_some()) {
-            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
-            Some(Labels::new(labels, inputs.volume.grid(), inputs.volume.anatomy(), object.label_lookup))
-        } else {
-            None
-        };
+        let list = list.collect();
+        if shot.combination.is_some() && !halos.list.iter().any(|halo| halo.seed.can_seed()) {
+            return Ok(Some(Self { list, seeds: None, skip: None }));
+        }
+        let seeds = PreparedSeeds::new((&halos.list, halos.query), inputs, object.label_lookup, over_two)?;
         // A brick is skipped if none of its samples can seed.
         let grid = inputs.volume.grid();
         let cells = inputs.volume.dims().map(|n| n.max(2) - 1);
@@ -67,29 +55,22 @@ impl<'v> PreparedHalos<'v> {
             let radius = grid.axes().x_axis.length() * half.x
                 + grid.axes().y_axis.length() * half.y
                 + grid.axes().z_axis.length() * half.z;
-            halos.list.iter().zip(&list).any(|(params, halo)| {
-                let by_value = match &params.seed.value {
-                    None => true,
-                    Some(SeedValue::Opacity) => object.function.can_be_visible(range, None, rounded),
-                    Some(SeedValue::Nodes(nodes)) => {
-                        let (at, h): (Vec<f64>, Vec<f64>) = nodes.iter().map(|&[at, h]| (at, h)).unzip();
-                        can_be_above_zero(&at, &h, range, rounded)
-                    }
-                };
-                by_value
-                    && halo.seeding.focus.as_ref().is_none_or(|focus| focus.can_reach(centre, radius))
-                    && halo.seeding.labels.as_ref().is_none_or(|wanted| {
-                        labels
-                            .as_ref()
-                            .is_none_or(|labels| labels.ids_in(first, end).iter().any(|id| wanted.contains(id)))
+            halos.list.iter().zip(&seeds.list).any(|(params, seeding)| {
+                can_seed_at(&params.seed, &object.function, range, rounded)
+                    && seeding.focus.as_ref().is_none_or(|focus| focus.can_reach(centre, radius))
+                    && seeding.labels.as_ref().is_none_or(|wanted| {
+                        let labels = seeds.labels.as_ref();
+                        labels.is_none_or(|labels| labels.ids_in(first, end).iter().any(|id| wanted.contains(id)))
                     })
             })
         };
         let skip = bricks.map(|bricks| BrickOccupancy::new(bricks, can_seed));
-        let reads_opacity = any(|halo| halo.seeding.reads_opacity());
-        let reads_places = any(|halo| halo.seeding.focus.is_some());
-        let rest = over_two.map_or(halos.query, |first| halos.query.without(first));
-        Ok(Some(Self { list, query: halos.query, rest, reads_opacity, reads_places, labels, skip }))
+        Ok(Some(Self { list, seeds: Some(seeds), skip }))
+    }
+
+    /// Rays of the guard band that all halos need around the picture.
+    pub(super) fn guard(&self) -> usize {
+        guard(&self.list)
     }
 
     /// The place of a halo among those that layers show.

@@ -176,7 +176,7 @@ impl<'a> Renderer<'a> {
     pub fn bytes_of_halos(&self) -> u64 {
         fn of<R: Real, S: Sampler<R>>(p: &Prepared<'_, R>, _: &S, [tile, band]: [usize; 2]) -> u64 {
             let Some(halos) = &p.halos else { return 0 };
-            plane_order::bytes_with_halos::<R, S>(halos, largest_band(p, tile, band))
+            plane_order::bytes_with_halos::<R, S>(p, halos, largest_band(p, tile, band))
         }
         let sides = [self.tile, self.band];
         match &self.ready {

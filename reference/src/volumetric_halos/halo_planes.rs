@@ -1,15 +1,12 @@
 //! The halos of a picture from plane to plane (3.3 and 4): groups of planes, glows and tints ([HALO-7], [HALO-8]).
 
-use super::seed::Seeding;
 use super::{HaloField, HaloProfile, SpreadParams};
 use crate::accumulator::Accumulator;
-use crate::transfer::NodesError;
 use drypoint_scene::shot::{HaloAccumulation, HaloKind, HaloParams, HaloSource};
 
 /// A halo ready for any picture.
 #[derive(Clone, Debug)]
 pub(crate) struct PreparedHalo {
-    pub(crate) seeding: Seeding,
     profile: HaloProfile,
     spread: SpreadParams,
     kind: HaloKind,
@@ -23,13 +20,9 @@ pub(crate) struct PreparedHalo {
 
 impl PreparedHalo {
     /// Prepares a halo. `encode` says that colours are composited encoded, `is_watched` that a layer shows its intensities.
-    ///
-    /// # Errors
-    /// Nodes of h_v that make no function.
-    pub(crate) fn new(halo: &HaloParams, encode: bool, is_watched: bool) -> Result<Self, NodesError> {
+    pub(crate) fn new(halo: &HaloParams, encode: bool, is_watched: bool) -> Self {
         let spread = &halo.spread;
-        Ok(Self {
-            seeding: Seeding::new(halo)?,
+        Self {
             profile: HaloProfile::new(&halo.profile, halo.opacity, encode),
             spread: SpreadParams {
                 from_gradient: spread.from == HaloSource::Gradient,
@@ -44,7 +37,12 @@ impl PreparedHalo {
             accumulate: halo.accumulate,
             tints: halo.tints.clone(),
             is_watched,
-        })
+        }
+    }
+
+    /// A seed; 0 below the floor.
+    pub(crate) fn floored(&self, s: f64) -> f64 {
+        if s < self.spread.floor { 0.0 } else { s }
     }
 
     /// Whether its intensities count also where no sample follows.

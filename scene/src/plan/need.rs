@@ -20,6 +20,8 @@ pub enum Samples {
     Seeds,
     /// The visible samples of an object's selection or ghost ([VS-2]).
     Part,
+    /// The samples of a selection or ghost that are asked for seeds of halos.
+    PartSeeds,
 }
 
 /// A quantity that an effect needs.
@@ -46,7 +48,7 @@ impl Need {
         match self.samples {
             Samples::Visible | Samples::Part => self.quantity.adds(),
             Samples::First => self.quantity.adds_at_first(),
-            Samples::Seeds => self.quantity.adds_at_seeds(),
+            Samples::Seeds | Samples::PartSeeds => self.quantity.adds_at_seeds(),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The combination of objects in a picture: selections, ghosts, cutaways and intersections ([VS-2] … [VS-4], [VS-7]).
 
-use super::{Clipping, Object, Shot, ShotError, VolumeFacts};
+use super::{Clipping, Object, PartSeeds, Shot, ShotError, VolumeFacts};
 use crate::plan::Plan;
 use crate::space::Grid;
 use crate::tables::{
@@ -63,6 +63,8 @@ pub struct Part {
     pub drawn: Object,
     /// The planes that cut it, in the index space of its data where it is drawn.
     pub clipping: Clipping,
+    /// The seeds of halos among its samples; none: no halo takes any.
+    pub seeds: Option<PartSeeds>,
 }
 
 /// A cutaway: the background before a part fades ([VS-7]).
@@ -241,7 +243,9 @@ impl Part {
         let of_data = VolumeFacts { grid: main.grid, is_integer: facts.is_integer };
         let drawn = Object::resolve(facts.scene, facts.plan, of_data, facts.function.clone(), view)?;
         let placed = placed(facts.grid, motion)?;
-        Ok(Self { object, role, drawn, clipping: Clipping::of_part(facts.scene, main.grid, &placed) })
+        let clipping = Clipping::of_part(facts.scene, main.grid, &placed);
+        let seeds = PartSeeds::new(facts.scene, facts.plan, main.grid, &drawn.function)?;
+        Ok(Self { object, role, drawn, clipping, seeds })
     }
 }
 

@@ -6,7 +6,9 @@ use super::{
 };
 use crate::plan::{Plan, halos_in_effect};
 use crate::space::Grid;
-use crate::tables::{FocusPoints, Halo, Iso, LabelKey, Length, PictureSettings, Scene, SeedBy, Seeding, Spreading};
+use crate::tables::{
+    FocusPoints, Halo, Iso, LabelKey, Length, PartName, PictureSettings, Scene, SeedBy, Seeding, Spreading,
+};
 use crate::transfer::Function;
 use glam::DVec3;
 use serde::Serialize;
@@ -18,6 +20,15 @@ pub struct Halos {
     /// last ([HALO-7]). All of the scene if one has an effect, so that layers find them by their places; else none. One without an
     /// effect beside others has no seeds.
     pub list: Vec<HaloParams>,
+    /// The query of every sample of the background that is asked for its seeds.
+    pub query: SampleQuery,
+}
+
+/// The seeds of halos among the samples of a selection or a ghost, by its own function and labels ([VS-2]).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PartSeeds {
+    /// The seeds of each of [`Halos::list`]; 0 everywhere for a halo that takes other parts.
+    pub list: Vec<HaloSeed>,
     /// The query of every sample that is asked for its seeds.
     pub query: SampleQuery,
 }
@@ -29,7 +40,7 @@ pub struct HaloParams {
     pub name: String,
     /// Emissive or occlusive ([HALO-7]).
     pub kind: HaloKind,
-    /// Which samples are seeds, and how strong ones ([HALO-2], [HALO-3]).
+    /// Which samples of the background are seeds, and how strong ones ([HALO-2], [HALO-3]).
     pub seed: HaloSeed,
     /// From seeds to intensities on a plane ([HALO-4], [HALO-5]).
     pub spread: HaloSpread,
@@ -117,11 +128,23 @@ impl Halos {
     }
 }
 
+impl PartSeeds {
+    /// The seeds of a part, by its scene; none where no halo takes it. Lengths are measured by the grid of `[volume]`.
+    pub(super) fn new(scene: &Scene, plan: &Plan, grid: &Grid, function: &Function) -> Result<Option<Self>, ShotError> {
+        if halos_in_effect(scene).next().is_none() {
+            return Ok(None);
+        }
+        let list = scene.halos.iter().enumerate().map(|(i, halo)| HaloSeed::in_effect(i, halo, scene, grid));
+        let list: Vec<HaloSeed> = list.collect::<Result<_, _>>()?;
+        Ok(Some(Self { list, query: query::of_seeds(scene, plan, function) }))
+    }
+}
+
 impl HaloParams {
     /// Halo `place` of a scene.
     fn new(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
-        let seed = match halos_in_effect(scene).any(|(i, _)| i == place) {
-            true => HaloSeed::new(place, halo, scene, grid)?,
+        let seed = match halo.takes(&PartName::Background) {
+            true => HaloSeed::in_effect(place, halo, scene, grid)?,
             false => HaloSeed::none(),
         };
         let is_tinted = |(j, other): (usize, &Halo)| {
@@ -148,6 +171,12 @@ impl HaloParams {
 }
 
 impl HaloSeed {
+    /// Whether a sample can be a seed for some value.
+    pub fn can_seed(&self) -> bool {
+        let is_zero = |nodes: &Vec<[f64; 2]>| nodes.iter().all(|node| node[1] <= 0.0);
+        !matches!(&self.value, Some(SeedValue::Nodes(nodes)) if is_zero(nodes))
+    }
+
     /// The seeds of a halo without an effect: 0 at every value.
     fn none() -> Self {
         Self {
@@ -157,6 +186,15 @@ impl HaloSeed {
             labels: None,
             gradient_exponent: 0.0,
             side: SeedSide::Power { exponent: 0.0 },
+        }
+    }
+
+    /// The seeds of halo `place` of a scene, if it has an effect.
+    fn in_effect(place: usize, halo: &Halo, scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
+        if halos_in_effect(scene).any(|(i, _)| i == place) {
+            Self::new(place, halo, scene, grid)
+        } else {
+            Ok(Self::none())
         }
     }
 
@@ -271,6 +309,7 @@ const FARTHEST: f64 = (1_u64 << 21) as f64;
 mod tests {
     use super::*;
     use crate::file::{Overrides, parse};
+    use crate::quantity::Quantity;
     use crate::shot::{KappaSource, Shot, VolumeFacts};
     use crate::tables::SeedValue;
     use crate::view::View;
@@ -333,6 +372,38 @@ mod tests {
         };
         assert_eq!(regular(""), Halos { list: vec![expected], query: SampleQuery::NORMAL });
         assert_eq!(halos(REGULAR).unwrap(), Halos { list: vec![], query: SampleQuery::VALUE });
+    }
+
+    /// A halo of another part has no seeds in the background, and in a part those of the part's function.
+    #[test]
+    fn each_part_has_the_seeds_of_its_halos() {
+        let objects = "[[object]]\nname = \"a\"\nmove = [1, 0, 0]\n";
+        let table = |part: &str| format!("[[halo]]\nname = \"{part}\"\nobject = \"{part}\"\nopacity = 0.5\n");
+        let tables = ["a", "a ghost", "background"].map(table).concat();
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{REGULAR}{tables}[[halo]]\n{objects}");
+        let scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+        let grid = Grid::with_spacing([9; 3], [1.0; 3]).unwrap();
+        let can_seed = |list: &[HaloSeed]| list.iter().map(HaloSeed::can_seed).collect::<Vec<_>>();
+        let function = Function::nothing();
+        let main = Halos::new(&scene, &Plan::new(&scene), &grid, &function).unwrap();
+        let of_background: Vec<HaloSeed> = main.list.iter().map(|halo| halo.seed.clone()).collect();
+        assert_eq!(can_seed(&of_background), [false, false, true, true]);
+        for ((object, role), expected) in scene.parts().zip([[true, false, false, true], [false, true, false, true]]) {
+            let part = scene.of_part(object, role);
+            let plan = Plan::new(&part);
+            let seeds = PartSeeds::new(&part, &plan, &grid, &function).unwrap().unwrap();
+            assert_eq!((can_seed(&seeds.list), seeds.query), (expected.to_vec(), SampleQuery::NORMAL));
+            assert!(plan.needs_anywhere(Quantity::GradientMagnitudeRange));
+        }
+        let parsed = |text: &str| parse(text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+        let other = parsed(&text.replace("[[halo]]\n[[object]]", "[[object]]")).of_part(0, crate::tables::Role::Ghost);
+        let none = parsed(&text.replace(&tables, &table("background")).replace("[[halo]]\n[[object]]", "[[object]]"));
+        let none = none.of_part(0, crate::tables::Role::Ghost);
+        let seeds = |part: &Scene| PartSeeds::new(part, &Plan::new(part), &grid, &function).unwrap();
+        assert_eq!(
+            (seeds(&other).map(|seeds| can_seed(&seeds.list)), seeds(&none)),
+            (Some(vec![false, true, false]), None)
+        );
     }
 
     /// 8 + 4 + 2 + 1 rays of taps, one of the gradient and one more; with q = 2.5 each distance is rounded up.

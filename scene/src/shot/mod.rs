@@ -26,7 +26,7 @@ pub use combination::{
     Combination, Cutaway, Intersection, IntersectionPaint, Membership, Part, PartFacts, SelectionFacts,
     SelectionParams, placed,
 };
-pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, SeedFocus, SeedSide};
+pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, PartSeeds, SeedFocus, SeedSide};
 pub use lattice::{Lattice, MOST_PLANES};
 pub use material::{
     ContourParams, Illumination, LevelOfDetail, Lighting, LightingParams, LightingSource, Material, PhongParams,

@@ -36,6 +36,7 @@ fn curvatures() {
     let kernel = Kernel {
         modules: modules(&[
             "number/number",
+            "field/gradient/still",
             "field/gradient/gradient",
             "field/hessian/second",
             "field/hessian/curvature",

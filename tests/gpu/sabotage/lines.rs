@@ -21,7 +21,7 @@ fn faults_of_lines_are_noticed() {
         (&text, "front = meet_line(front);", "next_line++;"),
         (&surface, "!(fragments[end_line - 1].t < hit)", "!(fragments[end_line - 1].t < hit + 2.0)"),
     ] {
-        let Some(difference) = difference_among_with(text, lines, (old, new)) else { return };
+        let Some(difference) = difference_among_with(text, lines, Some((old, new))) else { return };
         println!("{new}: {difference:.1e}");
         assert!(difference > 1e-6, "{old} → {new}: {difference:e}");
     }

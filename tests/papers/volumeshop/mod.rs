@@ -3,6 +3,7 @@
 mod by_hand;
 mod counts;
 mod cutaways;
+mod halos;
 mod identity;
 mod motions;
 mod painting;

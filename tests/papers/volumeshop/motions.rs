@@ -9,7 +9,7 @@ fn moved(look: &str, camera: &str, motion: &str) -> String {
 }
 
 /// A body without symmetries, on a grid of unequal spacings.
-const VOLUME: &str = "phantom = { name = \"specimen\", size = [28, 24, 20], spacing = [1, 1.25, 1.5] }";
+pub(super) const VOLUME: &str = "phantom = { name = \"specimen\", size = [28, 24, 20], spacing = [1, 1.25, 1.5] }";
 
 /// Looks that read the normal, |N|, κ along the ray and by Hessians.
 const LOOKS: [&str; 4] = [

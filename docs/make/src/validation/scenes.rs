@@ -28,7 +28,18 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("Phong, and an iso-surface", "[shading]\n[surface]\niso = 136\n"),
     ("over value and gradient magnitude", OVER_GRADIENT),
     ("over value and a distance", OVER_DISTANCE),
+    ("a selection, moved", MOVED),
+    ("an intersection with the ghost", MEETING),
+    ("a ghosted background, in a funnel", GHOSTED),
 ];
+
+/// Half of the torus moved out of it.
+const MOVED: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[120, 0], [134, 1]]\nmove = [9, -12, 6]\n\
+    rotate = { axis = [1, 2, 0], angle = 40 }\n";
+const MEETING: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[110, 0], [134, 0.8]]\nmove = [3, -2, 2]\n\
+    [[intersection]]\nobject = \"half\"\nwith = \"ghost\"\ncolor = \"#ff4010\"\n";
+const GHOSTED: &str = "[shading]\nmodel = \"lighting-function\"\n[[object]]\nname = \"half\"\n\
+    value = [[130, 0], [134, 1]]\nmove = [0, 6, 0]\nghosting = 0.6\nfunnel = \"6 px\"\n";
 
 /// The effect of colours alone.
 const COLORS: &str = "";

@@ -6,6 +6,7 @@
 mod cast;
 mod layers;
 mod object_ray;
+mod object_seeds;
 mod part_ray;
 mod path;
 pub(super) mod plane_order;

@@ -1,7 +1,7 @@
 //! The objects on one ray: where it meets them, and what the sets at a sample make of its colour and opacity ([VS-2] …
 //! [VS-4], [VS-7]).
 
-use super::part_ray::{FieldEvaluator, FoundPart, Here, PartRay, evaluator};
+use super::part_ray::{FieldEvaluator, FoundPart, Here, PartRay, SelectionSet, evaluator};
 use super::selection_ray::{SelectionRay, contains};
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;
@@ -15,13 +15,13 @@ use drypoint_scene::shot::{Cut, IntersectionPaint};
 
 /// The objects on a ray.
 pub(super) struct ObjectRay<'p, 'v, R: Real> {
-    combination: &'p PreparedCombination<'v, R>,
-    selections: Vec<SelectionRay>,
-    parts: Vec<PartRay<'p, 'v, R>>,
+    pub(super) combination: &'p PreparedCombination<'v, R>,
+    pub(super) selections: Vec<SelectionRay>,
+    pub(super) parts: Vec<PartRay<'p, 'v, R>>,
     /// The background among objects. It decides on its kernel at every call: of code that combines there is one.
-    behind: FieldEvaluator<'p, 'v, R>,
-    /// The samples at which the background can show something.
-    background: Vec<[i64; 2]>,
+    pub(super) behind: FieldEvaluator<'p, 'v, R>,
+    /// The samples at which the background can show something; on a ray for seeds, those at which it can seed.
+    pub(super) background: Vec<[i64; 2]>,
     /// The samples in the background's box.
     inside: [i64; 2],
     /// The first sample that each cutaway leaves.
@@ -47,7 +47,7 @@ pub(super) struct Largest<R> {
 
 impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     /// The objects on the ray through a point of the picture; none if it meets none of them. `background` are the samples at
-    /// which the background can show something, `inside` those in its box.
+    /// which the background can show something or seed, `inside` those in its box.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         point: [f64; 2],
@@ -75,7 +75,13 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
 
     /// All samples at which something can be seen, in order and without overlap.
     pub(super) fn visits(&self) -> Vec<[i64; 2]> {
-        let of_parts = self.parts.iter().map(|part| part.range).filter(|[first, last]| first <= last);
+        self.visits_of(|_| true)
+    }
+
+    /// All samples of the background and of some parts, in order and without overlap.
+    pub(super) fn visits_of(&self, counts: impl Fn(&PreparedPart<'v, R>) -> bool) -> Vec<[i64; 2]> {
+        let of_parts = self.parts.iter().filter(|part| counts(part.part)).map(|part| part.range);
+        let of_parts = of_parts.filter(|[first, last]| first <= last);
         let mut all: Vec<[i64; 2]> = self.background.iter().copied().chain(of_parts).collect();
         all.sort_unstable();
         let mut visits: Vec<[i64; 2]> = Vec::new();
@@ -119,38 +125,19 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let combination = self.combination;
         let fuzzy = combination.fuzzy;
         // The value of the background's volume here, which its pieces share; looked up at most once.
-        let mut here = Here { k, is_inside: contains(self.inside, k), sample: None };
-
-        // Eq. 1: the selections here that are taken from the background, and what is left of it.
-        let mut shares = Shares::whole();
-        let takes = |(ray, s): &(&SelectionRay, &PreparedSelection<'_, R>)| s.takes && contains(ray.here.range, k);
-        if self.selections.iter().zip(&combination.selections).any(|pair| takes(&pair)) {
-            let taken = self.selections.iter().zip(&combination.selections).filter(takes);
-            let mut memberships = Vec::with_capacity(self.selections.len());
-            for (ray, selection) in taken {
-                memberships.push(ray.here.membership(selection, k, || Some(here.sample(&self.behind, counts)?.s)));
-            }
-            shares = Shares::beside(fuzzy, memberships.into_iter());
-        }
+        let mut here = self.here(k);
+        let shares = self.shares(&mut here, counts);
 
         // Eqs. 2 and 3: the background, faded where it lies before an object.
         let mut of_background = None;
-        let is_gone = || self.cutaways_at(k).any(|gamma| gamma >= R::ONE);
-        if shares.background > R::ZERO && self.background.iter().any(|&range| contains(range, k)) && !is_gone() {
+        if self.has_background(k, &shares) {
             let can_show = |cells: &CellMask, at: Sample<R>| cells.can_show(&prepared.object.field, at.at.cell);
             let sample = here.sample(&self.behind, counts);
             let sample = sample.filter(|at| prepared.cells.as_ref().is_none_or(|cells| can_show(cells, *at)));
             if let Some(sample) = sample
                 && let Some(((rgb, alpha), attributes)) = self.behind.shaded_by_any(sample, counts)
             {
-                let background = &self.behind;
-                let enhancement = || {
-                    let seen = background.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
-                    background.object.shader.enhancement(&seen, &background.dirs)
-                };
-                let mut fades = self.cutaways_at(k).peekable();
-                let e = if fades.peek().is_some() { enhancement() } else { R::ZERO };
-                let faded = fades.fold(R::ONE, |factor, gamma| factor * ghosting::factor(gamma, e));
+                let faded = self.faded(k, attributes);
                 let weight = shares.background;
                 let mu = fuzzy::intersection(fuzzy, weight, alpha * faded);
                 of_background = Some(FoundPart { sample, attributes, rgb, weight, mu, faded });
@@ -163,11 +150,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             if !contains(part.range, k) {
                 continue;
             }
-            let selection = &combination.selections[part.part.selection];
-            let ray = &self.selections[part.part.selection];
-            let placed = if part.part.is_moved { &ray.there } else { &ray.here };
-            let share = if selection.takes && !part.part.is_moved { shares.of_each } else { R::ONE };
-            *found = part.found(k, (selection, placed, share), &mut here, &self.behind, fuzzy, counts);
+            let set = selection_set(part.part, combination, &self.selections, &shares);
+            *found = part.found(k, set, &mut here, &self.behind, fuzzy, counts);
         }
         let largest = self.largest(of_background.as_ref())?;
 
@@ -196,6 +180,61 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         }
         let (rgb, alpha) = combined(fuzzy, sets.into_iter());
         Some(Together { rgb, alpha, largest })
+    }
+
+    /// The value of the background's volume at sample k, not looked up yet.
+    pub(super) fn here(&self, k: i64) -> Here<R> {
+        Here { k, is_inside: contains(self.inside, k), sample: None }
+    }
+
+    /// Eq. 1 at a sample: the selections that are taken from the background there, and what is left of it.
+    pub(super) fn shares(&self, here: &mut Here<R>, counts: &mut Counts) -> Shares<R> {
+        let (combination, k) = (self.combination, here.k);
+        let takes = |(ray, s): &(&SelectionRay, &PreparedSelection<'_, R>)| s.takes && contains(ray.here.range, k);
+        if !self.selections.iter().zip(&combination.selections).any(|pair| takes(&pair)) {
+            return Shares::whole();
+        }
+        let taken = self.selections.iter().zip(&combination.selections).filter(takes);
+        let mut memberships = Vec::with_capacity(self.selections.len());
+        for (ray, selection) in taken {
+            memberships.push(ray.here.membership(selection, k, || Some(here.sample(&self.behind, counts)?.s)));
+        }
+        Shares::beside(combination.fuzzy, memberships.into_iter())
+    }
+
+    /// Whether sample k is one of the background, with a share that no cutaway removes.
+    pub(super) fn has_background(&self, k: i64, shares: &Shares<R>) -> bool {
+        let is_gone = || self.cutaways_at(k).any(|gamma| gamma >= R::ONE);
+        shares.background > R::ZERO && self.background.iter().any(|&range| contains(range, k)) && !is_gone()
+    }
+
+    /// Whether a cutaway fades the background at sample k.
+    pub(super) fn is_cut(&self, k: i64) -> bool {
+        self.cutaways_at(k).next().is_some()
+    }
+
+    /// The factor by which ghosting fades the background at sample k, whose attributes are those of the field.
+    pub(super) fn faded(&self, k: i64, attributes: SampleAttributes<R>) -> R {
+        if !self.is_cut(k) {
+            return R::ONE;
+        }
+        let background = &self.behind;
+        let seen = background.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
+        let e = background.object.shader.enhancement(&seen, &background.dirs);
+        self.cutaways_at(k).fold(R::ONE, |factor, gamma| factor * ghosting::factor(gamma, e))
+    }
+
+    /// Its size in bytes.
+    pub(super) fn bytes(&self) -> u64 {
+        let of_ranges = size_of_val(self.background.as_slice()) + size_of_val(self.cut_ends.as_slice());
+        Self::most_bytes(self.combination) + of_ranges as u64
+    }
+
+    /// Bytes of the objects on a ray that meets some, without the ranges of the background.
+    pub(super) fn most_bytes(combination: &PreparedCombination<'_, R>) -> u64 {
+        let of_part = size_of::<PartRay<'_, '_, R>>() + size_of::<Option<FoundPart<R>>>();
+        let of_selections = combination.selections.len() * size_of::<SelectionRay>();
+        (size_of::<Self>() + combination.parts.len() * of_part + of_selections) as u64
     }
 
     /// γ of the cutaways that sample k lies before.
@@ -275,13 +314,10 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let d = self.depth(cutaway.params.part, cutaway.params.cut, counts);
         let d = match &cutaway.funnel {
             None => d,
-            Some(funnel) => {
-                let pixel = [0, 1].map(|a| (point[a].max(0.0) as usize).min(prepared.view.size[a] - 1));
-                match through_box(lattice.line(), prepared.object.grid.index_box()) {
-                    Some([z_in, _]) => funnel.depth(pixel, z_in.max(prepared.near_of(&lattice)), d),
-                    None => d,
-                }
-            }
+            Some(funnel) => match through_box(lattice.line(), prepared.object.grid.index_box()) {
+                Some([z_in, _]) => funnel.depth(point, z_in.max(prepared.near_of(&lattice)), d),
+                None => d,
+            },
         };
         if d == f64::NEG_INFINITY { i64::MIN } else { lattice.last_before(d) + 1 }
     }
@@ -315,5 +351,20 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             if by == 0 { gradient } else { Vec3::new(scaled(gradient.x), scaled(gradient.y), scaled(gradient.z)) };
         let cut = part.evaluator.cut_at(largest.sample.k);
         Some(cut.map_or(attributes, |cut| cut.attributes(attributes)))
+    }
+}
+
+/// The selection set of a part on a ray.
+pub(super) fn selection_set<'a, 'v, R: Real>(
+    part: &PreparedPart<'v, R>,
+    combination: &'a PreparedCombination<'v, R>,
+    selections: &'a [SelectionRay],
+    shares: &Shares<R>,
+) -> SelectionSet<'a, 'v, R> {
+    let (selection, ray) = (&combination.selections[part.selection], &selections[part.selection]);
+    SelectionSet {
+        selection,
+        placed: if part.is_moved { &ray.there } else { &ray.here },
+        share: if selection.takes && !part.is_moved { shares.of_each } else { R::ONE },
     }
 }

@@ -24,6 +24,16 @@ pub(super) struct PartRay<'p, 'v, R: Real> {
     pub(super) range: [i64; 2],
 }
 
+/// A part's selection set on a ray.
+#[derive(Clone, Copy)]
+pub(super) struct SelectionSet<'a, 'v, R: Real> {
+    pub(super) selection: &'a PreparedSelection<'v, R>,
+    /// The selection where the part is drawn.
+    pub(super) placed: &'a PlacedSelection,
+    /// The factor of f_S: 1, or that of a piece of the background.
+    pub(super) share: R,
+}
+
 /// A part's set at a sample.
 #[derive(Clone, Copy)]
 pub(super) struct FoundPart<R> {
@@ -58,40 +68,56 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     pub(super) fn found(
         &mut self,
         k: i64,
-        (selection, placed, share): (&PreparedSelection<'_, R>, &PlacedSelection, R),
+        set: SelectionSet<'_, '_, R>,
         here: &mut Here<R>,
         background: &FieldEvaluator<'_, '_, R>,
         fuzzy: Fuzzy,
         counts: &mut Counts,
     ) -> Option<FoundPart<R>> {
-        let mut sample = None;
-        let by_value = matches!(selection.membership, PreparedMembership::Value(_));
-        if by_value {
-            sample = Some(self.look_up(k, here, background, counts)?);
-        }
-        let weight = placed.membership(selection, k, || sample.map(|sample: Sample<R>| sample.s)) * share;
-        if weight <= R::ZERO {
-            return None;
-        }
-        let sample = match sample {
-            Some(sample) => sample,
-            None => self.look_up(k, here, background, counts)?,
-        };
+        let can_show = |at: [usize; 3]| self.part.can_show(at);
+        let (sample, weight) = self.member(k, set, can_show, here, background, counts)?;
         let ((rgb, alpha), attributes) = self.evaluator.shaded_by_any(sample, counts)?;
         let mu = fuzzy::intersection(fuzzy, weight, alpha);
         let seen = self.evaluator.cut_at(k).map_or(attributes, |cut| cut.attributes(attributes));
         (mu > R::ZERO).then_some(FoundPart { sample, attributes: seen, rgb, weight, mu, faded: R::ONE })
     }
 
+    /// Sample k and the membership of its selection set: none where that is 0, or where a cell is not asked.
+    pub(super) fn member(
+        &self,
+        k: i64,
+        set: SelectionSet<'_, '_, R>,
+        is_asked: impl Fn([usize; 3]) -> bool,
+        here: &mut Here<R>,
+        background: &FieldEvaluator<'_, '_, R>,
+        counts: &mut Counts,
+    ) -> Option<(Sample<R>, R)> {
+        let mut look_up = || self.look_up(k, &is_asked, here, background, counts);
+        let mut sample = None;
+        if matches!(set.selection.membership, PreparedMembership::Value(_)) {
+            sample = Some(look_up()?);
+        }
+        let weight = set.placed.membership(set.selection, k, || sample.map(|sample: Sample<R>| sample.s)) * set.share;
+        if weight <= R::ZERO {
+            return None;
+        }
+        let sample = match sample {
+            Some(sample) => sample,
+            None => look_up()?,
+        };
+        Some((sample, weight))
+    }
+
     /// Its value at sample k: that of the background where both are one volume at one place.
     fn look_up(
         &self,
         k: i64,
+        is_asked: impl Fn([usize; 3]) -> bool,
         here: &mut Here<R>,
         background: &FieldEvaluator<'_, '_, R>,
         counts: &mut Counts,
     ) -> Option<Sample<R>> {
-        if !self.part.can_show(self.evaluator.sampler.place(self.evaluator.ray.position(k)).cell) {
+        if !is_asked(self.evaluator.sampler.place(self.evaluator.ray.position(k)).cell) {
             return None;
         }
         if self.part.is_of_background { here.sample(background, counts) } else { look_up(&self.evaluator, k, counts) }

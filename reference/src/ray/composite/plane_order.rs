@@ -2,6 +2,7 @@
 //! [HALO-8]).
 
 use super::cast::Cast;
+use super::object_ray::ObjectRay;
 use super::seed_rays::SeedRays;
 use super::waiting_tile::{ENDED, WaitingTile};
 use crate::field::Sampler;
@@ -10,23 +11,31 @@ use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
 use crate::ray::tile_work::{TileRays, TileWork};
-use crate::volumetric_halos::{HaloPlanes, guard};
+use crate::volumetric_halos::HaloPlanes;
 use drypoint_scene::counts::Counts;
 use rayon::prelude::*;
 
 /// The results of the rays of each tile, in their order.
 type Casts = Vec<(Vec<Cast>, Counts)>;
 
-/// Bytes for the rays of a region with halos, at the most: their states with a short path each, those of the seed rays, and
-/// the images.
-pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(halos: &PreparedHalos<'_>, [width, height]: [usize; 2]) -> u64 {
-    let with_guard = |side: usize| (side as u64).saturating_add(2u64.saturating_mul(guard(&halos.list) as u64));
+/// Bytes for the rays of a region with halos, at the most: their states with a short path each, those of the seed rays, the
+/// objects on all of them, and the images.
+pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(
+    prepared: &Prepared<'_, R>,
+    halos: &PreparedHalos<'_>,
+    [width, height]: [usize; 2],
+) -> u64 {
+    let with_guard = |side: usize| (side as u64).saturating_add(2u64.saturating_mul(halos.guard() as u64));
     let inside = (width as u64).saturating_mul(height as u64);
     let images = HaloPlanes::BYTES_OF_PIXEL * halos.list.len() as u64;
     let of_band = with_guard(width).saturating_mul(with_guard(height));
-    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, S>::BYTES_OF_RAY);
-    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, S>::BYTES_OF_RAY + images))
+    let objects = prepared.combination.as_ref().map_or(0, |objects| ObjectRay::most_bytes(objects) + SLOT);
+    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, S>::BYTES_OF_RAY + objects);
+    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, S>::BYTES_OF_RAY + objects + images))
 }
+
+/// Bytes of the place of the objects of a ray, and of two more ranges of samples.
+const SLOT: u64 = 40;
 
 /// Casts rays of a tile plane by plane, without halos.
 pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
@@ -58,8 +67,8 @@ pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
     let watched = halos.watched();
     let mut tiles: Vec<WaitingTile<'_, '_, R, S>> =
         tiles.map(|tile| WaitingTile::new(prepared, sampler, tile, watched)).collect();
-    let mut seeds = SeedRays::new(prepared, halos, sampler, region, planes.size());
     let mut counts = Counts::default();
+    let mut seeds = SeedRays::new(prepared, halos, sampler, region, planes.size(), &mut counts);
     counts.bytes.insert("rays".into(), tiles.iter().map(WaitingTile::bytes).sum());
     counts.bytes.insert("seed_rays".into(), seeds.bytes());
     counts.bytes.insert("halos".into(), planes.bytes());

@@ -3,6 +3,8 @@
 //! A seed depends on the field at its sample alone, not on what is visible in front of it. So seeds have rays of their own,
 //! in the guard band about the picture too, with samples on the same planes.
 
+use super::object_ray::ObjectRay;
+use super::object_seeds::SeedScratch;
 use super::waiting_tile::ENDED;
 use crate::field::Sampler;
 use crate::number::{Real, Vec3};
@@ -11,13 +13,10 @@ use crate::ray::draw::{Region, ray_point};
 use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
-use crate::ray::sample::{Evaluator, Sample, SampleAttributes};
-use crate::style_transfer_functions::contour;
-use crate::transfer::over::SampleQuantities;
-use crate::volumetric_halos::seed::{SeedNormal, SeedPlace};
+use crate::ray::prepared_seeds::PreparedSeeds;
+use crate::ray::sample::{Evaluator, EyeAxes, Sample};
 use crate::volumetric_halos::{HaloPlanes, SeedStrip};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::glam::DVec3;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -44,6 +43,8 @@ struct SeedTile<'p, 'v, R: Real, S> {
     planes: Vec<[i64; 2]>,
     /// Ranges of samples in bricks that can seed, ray after ray, of each nearest first.
     ranges: Vec<[i64; 2]>,
+    /// The objects on each ray that meets some; empty in a picture without objects.
+    objects: Vec<Option<Box<ObjectRay<'p, 'v, R>>>>,
     /// The nearest of all next planes.
     next: i64,
 }
@@ -61,19 +62,29 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     /// Bytes of a ray with two ranges of samples.
     pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R, S>>() + 3 * size_of::<[i64; 2]>()) as u64;
 
-    /// Aims the rays of a region; `size` is that of the images, with the guard band.
+    /// Aims the rays of a region; `size` is that of the images, with the guard band. Adds to the counts what it takes to find
+    /// cutaways on them.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         halos: &'p PreparedHalos<'v>,
         sampler: &'p S,
         region: Region,
         size: [usize; 2],
+        counts: &mut Counts,
     ) -> Self {
         let aim = |strip: usize| {
-            let tile = |column: usize| SeedTile::new(prepared, halos, sampler, region, size, [column, strip]);
-            (0..size[0].div_ceil(SIDE)).map(tile).collect()
+            let mut counts = Counts::default();
+            let tile =
+                |column: usize| SeedTile::new((prepared, halos), sampler, region, size, [column, strip], &mut counts);
+            let tiles: Vec<_> = (0..size[0].div_ceil(SIDE)).map(tile).collect();
+            (tiles, counts)
         };
-        let strips = (0..size[1].div_ceil(SIDE)).into_par_iter().map(aim).collect();
+        let aimed: Vec<(Vec<_>, Counts)> = (0..size[1].div_ceil(SIDE)).into_par_iter().map(aim).collect();
+        let add = |(tiles, own): (Vec<_>, Counts)| {
+            counts.add(&own);
+            tiles
+        };
+        let strips = aimed.into_iter().map(add).collect();
         Self { prepared, halos, strips, region, size, open: Vec::new() }
     }
 
@@ -111,14 +122,15 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
         let (prepared, halos) = (self.prepared, self.halos);
         let strips = planes.seed_strips(SIDE);
         let visit = |(tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
-            let (mut counts, mut scratch) = (Counts::default(), vec![0.0; halos.list.len()]);
+            let (mut counts, mut scratch) = (Counts::default(), SeedScratch::new(halos.list.len()));
             for tile in tiles.iter_mut().filter(|tile| tile.next <= last) {
-                for (planes, ray) in tile.planes.iter_mut().zip(&mut tile.rays).filter(|(planes, _)| planes[0] <= last)
-                {
+                let rays = tile.planes.iter_mut().zip(&mut tile.rays).enumerate();
+                for (i, (planes, ray)) in rays.filter(|(_, (planes, _))| planes[0] <= last) {
+                    let mut objects = tile.objects.get_mut(i).and_then(Option::as_deref_mut);
                     while planes[0] <= last {
-                        for k in planes[0]..=planes[1].min(last) {
-                            ray.seed(k, (prepared, halos), &mut strip, &mut scratch, &mut counts);
-                        }
+                        let run = [planes[0], planes[1].min(last)];
+                        let together = (prepared, halos);
+                        ray.seed_run(run, objects.as_deref_mut(), together, &mut strip, &mut scratch, &mut counts);
                         *planes = if last < planes[1] {
                             [last + 1, planes[1]]
                         } else {
@@ -141,21 +153,22 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     pub(super) fn bytes(&self) -> u64 {
         let of = |tile: &SeedTile<'_, '_, R, S>| {
             let planes = size_of_val(tile.planes.as_slice()) + size_of_val(tile.ranges.as_slice());
-            (size_of_val(tile.rays.as_slice()) + planes) as u64
+            let objects: u64 = tile.objects.iter().flatten().map(|objects| objects.bytes()).sum();
+            (size_of_val(tile.rays.as_slice()) + size_of_val(tile.objects.as_slice()) + planes) as u64 + objects
         };
         self.strips.iter().flatten().map(of).sum()
     }
 }
 
 impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
-    /// Aims the rays of a tile of the images that can meet a brick with seeds.
+    /// Aims the rays of a tile of the images that can meet a brick with seeds, or a part that seeds.
     fn new(
-        prepared: &'p Prepared<'v, R>,
-        halos: &'p PreparedHalos<'v>,
+        (prepared, halos): (&'p Prepared<'v, R>, &'p PreparedHalos<'v>),
         sampler: &'p S,
         region: Region,
         size: [usize; 2],
         [column, strip]: [usize; 2],
+        counts: &mut Counts,
     ) -> Self {
         let guard = (size[0] - region.size[0]) / 2;
         let first = [column * SIDE, strip * SIDE];
@@ -175,17 +188,31 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             skip.boxes_in(&Beam::new(corners))
         });
         let mut tile = Self::ended();
-        if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
+        let (seeds, combination) = (halos.seeds.is_some(), prepared.combination.is_some());
+        if !combination && boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
             return tile;
         }
         for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
-            let [i, j] = ray_point(prepared.rays_across, ray_at([first[0] + x, first[1] + y]));
-            let pixel = view.ray(i, j);
+            let point = ray_point(prepared.rays_across, ray_at([first[0] + x, first[1] + y]));
+            let pixel = view.ray(point[0], point[1]);
             let ray = IndexRay::<R>::new(&pixel, view, &prepared.lattice, grid);
             let from = tile.ranges.len();
-            tile.ranges.extend(ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes.as_mut())));
+            let visits = ray.visits(object.ends, &object.clip.planes, ray.intervals(boxes.as_mut())).filter(|_| seeds);
+            let objects = if combination {
+                let background: Vec<[i64; 2]> = visits.collect();
+                let places = (background.iter().copied(), ray.inside(object.ends));
+                let objects = ObjectRay::new(prepared, point, places, counts);
+                tile.ranges.extend(objects.as_ref().map_or(background, |objects| objects.seed_visits()));
+                objects
+            } else {
+                tile.ranges.extend(visits);
+                None
+            };
             let mut ranges = from..tile.ranges.len();
             let Some(first_range) = ranges.next() else { continue };
+            if combination {
+                tile.objects.push(objects.map(Box::new));
+            }
             tile.planes.push(tile.ranges[first_range]);
             let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
             let dirs = object.shader.view_dirs(v, v_eye);
@@ -198,96 +225,63 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
 
     /// A tile without rays.
     fn ended() -> Self {
-        Self { rays: Vec::new(), planes: Vec::new(), ranges: Vec::new(), next: ENDED }
+        Self { rays: Vec::new(), planes: Vec::new(), ranges: Vec::new(), objects: Vec::new(), next: ENDED }
     }
 }
 
 impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
-    /// Adds the seeds of sample k. `h` has a place for each halo.
+    /// Adds the seeds of the samples first..=last: runs of the volume alone as if there were no objects, the others together.
+    #[inline]
+    fn seed_run(
+        &mut self,
+        [mut next, last]: [i64; 2],
+        objects: Option<&mut ObjectRay<'_, '_, R>>,
+        (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
+        strip: &mut SeedStrip<'_>,
+        scratch: &mut SeedScratch,
+        counts: &mut Counts,
+    ) {
+        let seeds = halos.seeds.as_ref().map(|seeds| (seeds, &prepared.eye_axes));
+        let Some(objects) = objects else {
+            let Some(seeds) = seeds else { return };
+            (next..=last).for_each(|k| self.seed(k, seeds, strip, &mut scratch.h, counts));
+            return;
+        };
+        while next <= last {
+            let ([first, end], is_mixed) = objects.run_from([next, last]);
+            if is_mixed {
+                for k in first..=end {
+                    objects.seed(k, (prepared, halos), scratch, counts);
+                    let together = scratch.together.iter().enumerate().filter(|(_, s)| **s > 0.0);
+                    together.for_each(|(halo, &s)| strip.add(halo, self.place, s));
+                }
+            } else if let Some(seeds) = seeds {
+                let alone = objects.background_in([first, end]).flat_map(|[first, last]| first..=last);
+                alone.for_each(|k| self.seed(k, seeds, strip, &mut scratch.h, counts));
+            }
+            next = end + 1;
+        }
+    }
+
+    /// Adds the seeds of sample k of the volume. `h` has a place for each halo.
     #[inline]
     fn seed(
         &mut self,
         k: i64,
-        (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
+        (seeds, eye_axes): (&PreparedSeeds<'_>, &EyeAxes<R>),
         strip: &mut SeedStrip<'_>,
         h: &mut [f64],
         counts: &mut Counts,
     ) {
-        let object = self.evaluator.object;
-        let position = self.evaluator.ray.position(k);
-        let at = self.evaluator.sampler.place(position);
+        let evaluator = &mut self.evaluator;
+        let at = evaluator.sampler.place(evaluator.ray.position(k));
         // A masked sample is transparent and seeds nothing.
-        if object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
+        if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
             return;
         }
-        let sample = Sample { k, at, s: self.evaluator.sampler.value_at(at) };
+        let sample = Sample { k, at, s: evaluator.sampler.value_at(at) };
         counts.halo_samples += 1;
-        // h_v, h_l and h_p, and with a function over two quantities what α_u needs.
-        let mut attributes = SampleAttributes::neutral();
-        let alpha_u = if halos.reads_opacity { self.alpha_u(sample, position, &mut attributes, counts) } else { 0.0 };
-        let place = SeedPlace {
-            value: sample.s.to_f64(),
-            alpha_u,
-            world: if halos.reads_places { object.volume.grid().to_world(position.to_glam()) } else { DVec3::ZERO },
-            label: halos.labels.as_ref().map_or(0, |labels| labels.id_at(position)),
-        };
-        let mut any = false;
-        for (h, halo) in h.iter_mut().zip(&halos.list) {
-            *h = halo.seeding.before_gradient(&place);
-            any |= *h > 0.0;
-        }
-        if !any {
-            return;
-        }
-        // s, of samples that have a normal.
-        let rest = if halos.reads_opacity { halos.rest } else { halos.query };
-        let attributes = self.evaluator.evaluate(sample, rest, attributes, counts);
-        if attributes.normal.is_none() {
-            return;
-        }
-        let cut = self.evaluator.cut_at(k);
-        let attributes = cut.map_or(attributes, |cut| cut.attributes(attributes));
-        let Some(n) = attributes.normal else { return };
-        let eye = prepared.eye_axes.normal(&attributes, &self.evaluator.dirs);
-        let mut normal = SeedNormal {
-            in_picture: [eye.x.to_f64(), eye.y.to_f64()],
-            n_dot_v: n.dot(self.evaluator.dirs.v).to_f64().abs(),
-            magnitude: attributes.magnitude.to_f64(),
-            tau: 0.0,
-        };
-        for (i, (&h, halo)) in h.iter().zip(&halos.list).enumerate().filter(|(_, (h, _))| **h > 0.0) {
-            normal.tau = halo.seeding.thickness().map_or(0.0, |t| contour::root(attributes.kappa.to_f64().abs() * t));
-            let s = halo.seeding.strength(h, &normal);
-            if s > 0.0 {
-                strip.add(i, self.place, s);
-            }
-        }
-    }
-
-    /// α_u of a sample. What a function over two quantities asks for it becomes part of the attributes.
-    #[inline]
-    fn alpha_u(
-        &mut self,
-        sample: Sample<R>,
-        position: Vec3<R>,
-        attributes: &mut SampleAttributes<R>,
-        counts: &mut Counts,
-    ) -> f64 {
-        let object = self.evaluator.object;
-        let Some(place) = object.function.locate(sample.s) else { return 0.0 };
-        let Some(over_two) = &object.over_two else { return place.alpha_u.to_f64() };
-        *attributes = self.evaluator.evaluate(sample, over_two.first, *attributes, counts);
-        let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
-        let here = SampleQuantities {
-            position,
-            place: sample.at,
-            value: sample.s,
-            gradient: of_normal(attributes.gradient.length()),
-            magnitude: of_normal(attributes.magnitude),
-            principal: attributes.principal,
-            kappa: attributes.kappa,
-        };
-        over_two.locate(&here).map_or(0.0, |patch| patch.alpha_u.to_f64())
+        evaluator.seed(sample, (seeds, eye_axes), h, counts, |halo, s| strip.add(halo, self.place, s));
     }
 }
 

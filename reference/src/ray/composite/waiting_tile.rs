@@ -132,8 +132,11 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
     /// Bytes of the states of its rays.
     pub(super) fn bytes(&self) -> u64 {
-        let own = |ray: &WaitingRay<'_, '_, R, S>| size_of_val(ray.path.as_slice()) + size_of_val(&*ray.intensities);
-        (size_of_val(self.rays.as_slice()) + self.rays.iter().map(own).sum::<usize>()) as u64
+        let own = |ray: &WaitingRay<'_, '_, R, S>| {
+            let objects = ray.state.objects.as_ref().map_or(0, |objects| objects.bytes());
+            (size_of_val(ray.path.as_slice()) + size_of_val(&*ray.intensities)) as u64 + objects
+        };
+        size_of_val(self.rays.as_slice()) as u64 + self.rays.iter().map(own).sum::<u64>()
     }
 
     /// Ends the rays and returns their results.

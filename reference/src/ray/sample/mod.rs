@@ -7,6 +7,7 @@ mod lit;
 pub(super) mod need;
 mod object;
 mod over_two;
+mod seeds;
 mod shaded;
 mod shader;
 

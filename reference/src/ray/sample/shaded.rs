@@ -68,7 +68,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
 
     /// The quantities of a sample that a function can be over.
     #[inline(always)]
-    fn quantities(&self, sample: Sample<R>, attributes: &SampleAttributes<R>) -> SampleQuantities<R> {
+    pub(super) fn quantities(&self, sample: Sample<R>, attributes: &SampleAttributes<R>) -> SampleQuantities<R> {
         let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
         SampleQuantities {
             position: self.ray.position(sample.k),

@@ -53,19 +53,28 @@ fn tints(halos: &[Halo], check: &mut Check) {
     }
 }
 
-/// Seeds of labels need a label volume, and names of labels need a table of names.
+/// Seeds of labels need a label volume, and names of labels need a table of names: those beside the data that seed.
 fn labels(scene: &Scene, check: &mut Check) {
-    if !check.sound(&["volume"]) {
+    if !check.sound(&["volume", "object"]) {
         return;
     }
     for (i, halo) in scene.halos.iter().enumerate() {
         let Some(labels) = &halo.seed.labels else { continue };
         let key = format!("halo[{i}].seed.labels");
-        if scene.volume.labels.is_none() {
-            let what = format!("{key} are given, and the scene has no labels");
-            let remedy = "add the label volume: volume.labels = \"…\"".into();
+        let own = halo.object.as_ref().and_then(|part| scene.own_data_of(part));
+        let (volume, names, table) = match own {
+            Some(object) => {
+                let table = &scene.objects[object];
+                (&table.labels, &table.label_names, format!("object[{object}]"))
+            }
+            None => (&scene.volume.labels, &scene.volume.label_names, "volume".into()),
+        };
+        if volume.is_none() {
+            let whose = if own.is_some() { "the object's data have" } else { "the scene has" };
+            let what = format!("{key} are given, and {whose} no labels");
+            let remedy = format!("add the label volume: {table}.labels = \"…\"");
             check.fault_in(&key, Problem::Contradiction { what, remedy });
-        } else if scene.volume.label_names.is_none() {
+        } else if names.is_none() {
             for (j, label) in labels.iter().enumerate() {
                 let LabelKey::Name(name) = label else { continue };
                 check.fault_in(&format!("{key}[{j}]"), super::no_label_names(name));

@@ -12,9 +12,6 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     if !check.sound(&["object"]) {
         return;
     }
-    if !scene.objects.is_empty() && !scene.halos.is_empty() && check.sound(&["halo"]) {
-        check.fault_in("halo", Problem::NotBuilt { what: "[[halo]] beside [[object]]".into() });
-    }
     names(&scene.objects, check);
     labels(scene, check);
     references(scene, check);
@@ -153,7 +150,7 @@ mod tests {
                 "background",
             ),
             (object("") + "[[halo]]\nobject = \"tumors\"\n", "halo[0].object", "tumour"),
-            (object("") + "[[halo]]\n", "halo", "[[halo]] beside [[object]] is not built yet"),
+            (object("") + "[[halo]]\nobject = \"tumour ghost\"\n", "halo[0].object", "tumour"),
         ] {
             let told = faults(&rest);
             assert!(told.contains(key) && told.contains(what), "{rest}\n{told}");
@@ -161,7 +158,8 @@ mod tests {
         let sound = object(
             "label = [1, 2]\nmove = [0, 0, 4]\n[object.styles]\nmine = \"mine.png\"\n[object.transfer]\nnodes = [{ at = 1, style = \"mine\", opacity = 1 }]",
         ) + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour\", \"tumour ghost\"]\n"
-            + "[[intersection]]\nobject = \"tumour\"\nwith = \"background\"\ncolor = \"#ff000080\"\n";
+            + "[[intersection]]\nobject = \"tumour\"\nwith = \"background\"\ncolor = \"#ff000080\"\n"
+            + "[[halo]]\n[[halo]]\nobject = \"background\"\n[[halo]]\nobject = \"tumour ghost\"\n";
         assert_eq!(faults(&sound), "");
     }
 }

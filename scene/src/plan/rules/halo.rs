@@ -14,7 +14,10 @@ pub(super) const RULES: Rules = Rules {
         let item = asks.at.item.filter(|_| asks.casts_rays());
         let Some((_, halo)) = item.and_then(|item| halos_in_effect(scene).find(|(i, _)| *i == item)) else { return };
         let effect = format!("halo {}", item.unwrap_or_default());
-        needs(halo, scene, &effect, asks);
+        // The needs of data of an object's own are its parts'.
+        if halo.object.as_ref().is_none_or(|part| scene.own_data_of(part).is_none()) {
+            needs(halo, scene, &effect, asks);
+        }
         asks.pass(Pass::HaloSeeds, &effect, &asks.at.inner("seed"));
         if halo.spread.passes > 0 || halo.spread.from == HaloSource::Gradient || halo.spread.median {
             asks.pass(Pass::HaloSpreading, &effect, &asks.at.inner("spread"));
@@ -36,6 +39,10 @@ pub(super) const RULES: Rules = Rules {
             }
         } else {
             idle_keys(halo, idle);
+            if scene.objects.is_empty() {
+                let key = idle.at.inner("object");
+                idle.key(&key, "there are no objects: the background is all of the picture");
+            }
         }
     },
     knobs: &[

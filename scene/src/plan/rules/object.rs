@@ -1,6 +1,6 @@
 //! Rules of `[[object]]`, `[combine]` and `[[intersection]]`: needs and keys without effect.
 
-use super::{Asks, Idle, Pass, Rules};
+use super::{Asks, Idle, Pass, Rules, halos_in_effect};
 use crate::plan::{Plan, Samples};
 use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene};
 
@@ -18,7 +18,10 @@ pub(super) const RULES: Rules = Rules {
             let key = idle.at.key.clone();
             return idle.key(&key, "the volume itself is not drawn");
         }
-        idle_keys(object, idle);
+        let own = PartName::Selection(object.name.clone());
+        let ghost = PartName::Ghost(object.name.clone());
+        let mut seeds = halos_in_effect(scene).filter(|(_, halo)| halo.takes(&own) || halo.takes(&ghost));
+        idle_keys(object, seeds.any(|(_, halo)| halo.seed.labels.is_some()), idle);
     },
     ..Rules::new("object")
 };
@@ -65,7 +68,8 @@ fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
         // Its look may need other quantities than the picture's, at its own samples.
         for need in Plan::new(&scene.of_part(item, role)).needs {
             let effect = format!("{part}: {}", need.effect);
-            asks.need_at(need.quantity, Samples::Part, &effect, &scene.key_of_part(item, role, &need.key));
+            let samples = if need.samples == Samples::Seeds { Samples::PartSeeds } else { Samples::Part };
+            asks.need_at(need.quantity, samples, &effect, &scene.key_of_part(item, role, &need.key));
         }
     }
     let effect = format!("object {}", object.name);
@@ -87,8 +91,8 @@ fn acts(object: &ObjectTable, key: &str) -> bool {
     key == "ghosting" || object.motion.is_moved()
 }
 
-/// Lists the keys of an object that say nothing beside its others.
-fn idle_keys(object: &ObjectTable, idle: &mut Idle) {
+/// Lists the keys of an object that say nothing beside its others. `seeds_labels` says that a halo reads its labels.
+fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
     let at = idle.at.clone();
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
     if !object.motion.is_moved() {
@@ -102,7 +106,7 @@ fn idle_keys(object: &ObjectTable, idle: &mut Idle) {
         key("cut", "nothing is cut away: ghosting is 0");
         key("funnel", "nothing is cut away: ghosting is 0");
     }
-    if object.label.is_none() {
+    if object.label.is_none() && !seeds_labels {
         key("labels", "no label is selected, and the function may read none");
     }
 }
@@ -124,7 +128,7 @@ fn why_idle(scene: &Scene, item: usize) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use crate::file::{Overrides, parse};
-    use crate::plan::Plan;
+    use crate::plan::{Pass, Plan};
     use crate::quantity::Quantity;
     use std::path::Path;
 
@@ -148,6 +152,24 @@ mod tests {
             text.contains("selections") && !text.contains("moved selections") && !text.contains("cut depths"),
             "{text}"
         );
+    }
+
+    /// Seeds of a selection need their quantities there; of data of its own the background needs nothing.
+    #[test]
+    fn halos_need_quantities_of_the_parts_that_seed() {
+        let knee = |own: &str, halo: &str| plan(&format!("[[object]]\nname = \"knee\"\n{own}[[halo]]\n{halo}"));
+        let all = knee("volume = \"b.nrrd\"\n", "");
+        assert!(all.needs_at_seeds(Quantity::GradientMagnitudeRange));
+        assert!(all.to_string().contains("knee: halo 0") && all.has_pass(Pass::HaloSeeds));
+        let own = knee("volume = \"b.nrrd\"\nlabels = \"l.nrrd\"\n", "object = \"knee\"\nseed.labels = [1]\n");
+        assert!(!own.needs_anywhere(Quantity::Gradient) && !own.reads_labels() && own.has_pass(Pass::HaloSeeds));
+        let text = own.to_string();
+        assert!(text.contains("knee: halo 0") && text.contains("halo[0].seed.labels"), "{text}");
+        assert!(own.idle_keys.is_empty(), "{text}");
+        // The background's halo asks nothing of the knee.
+        assert!(!knee("", "object = \"background\"\n").to_string().contains("knee: halo"));
+        let alone = plan("[[halo]]\nobject = \"background\"\n");
+        assert_eq!(alone.idle_keys.iter().map(|idle| idle.key.as_str()).collect::<Vec<_>>(), ["halo[0].object"]);
     }
 
     #[test]

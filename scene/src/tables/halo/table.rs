@@ -117,6 +117,11 @@ impl Default for Halo {
 }
 
 impl Halo {
+    /// Whether samples of a part seed it.
+    pub(crate) fn takes(&self, part: &PartName) -> bool {
+        self.object.as_ref().is_none_or(|own| own == part)
+    }
+
     /// The halo with the name that a halo without one has at its place in the list.
     pub(crate) fn named(self, place: usize) -> Self {
         if self.name.is_empty() { Self { name: format!("halo {place}"), ..self } } else { self }

@@ -1,7 +1,8 @@
 //! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
 
+use crate::picture::LayerKind;
 use crate::tables::{
-    GhostTable, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
+    GhostTable, Halo, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
 };
 use serde::Serialize;
 
@@ -25,7 +26,8 @@ impl Scene {
     }
 
     /// The scene of a part: the object's data and look in place of the picture's, without other objects and without what is
-    /// drawn of `[volume]` alone. A table that the part does not have is the object's, or else the picture's.
+    /// drawn of `[volume]` alone. A table that the part does not have is the object's, or else the picture's. Halos keep
+    /// their places; those that the part does not seed have no effect.
     pub fn of_part(&self, object: usize, role: Role) -> Self {
         let table = &self.objects[object];
         let ghost = table.ghost.as_ref().filter(|_| role == Role::Ghost);
@@ -40,7 +42,6 @@ impl Scene {
             objects: Vec::new(),
             combine: None,
             intersections: Vec::new(),
-            halos: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,
@@ -53,7 +54,18 @@ impl Scene {
             Role::Ghost => PartName::Ghost(table.name.clone()),
         };
         scene.clips.retain(|clip| clip.applies.is_empty() || clip.applies.contains(&own));
+        // In data without labels h_l is 0.
+        let seeds = |halo: &Halo| halo.takes(&own) && (halo.seed.labels.is_none() || scene.volume.labels.is_some());
+        let idle: Vec<usize> = (0..self.halos.len()).filter(|&i| !seeds(&self.halos[i])).collect();
+        idle.iter().for_each(|&i| scene.halos[i].opacity = 0.0);
+        scene.picture.layers.retain(|layer| !matches!(layer, LayerKind::Halo(i) if idle.contains(i)));
         scene
+    }
+
+    /// The place of the object whose own data a part is drawn of; none: it is drawn of `[volume]`.
+    pub fn own_data_of(&self, part: &PartName) -> Option<usize> {
+        let (PartName::Selection(name) | PartName::Ghost(name)) = part else { return None };
+        self.objects.iter().position(|object| object.name == *name && object.volume.is_some())
     }
 
     /// Whether a part has a table of shading of its own.

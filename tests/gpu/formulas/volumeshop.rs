@@ -1,0 +1,165 @@
+//! Sets, ghosting and intersections of objects.
+
+use super::{errors, gpu, modules, random};
+use drypoint::gpu::Kernel;
+use drypoint::reference::volumeshop::fuzzy::{difference as minus, intersection, union};
+use drypoint::reference::volumeshop::ghosting::{enhancement as spared, factor};
+use drypoint::reference::volumeshop::{ObjectSet, Shares, combined, intersections};
+use drypoint::scene::intersection_picture::IntersectionPicture;
+use drypoint::scene::shot::{Fuzzy, IntersectionOpacity};
+
+/// Half a last place of 1 in f32: the error of one operation.
+const U: f64 = 1.0 / (1u64 << 24) as f64;
+
+/// The types of samples, as far as these functions read them.
+const TYPES: &str = "struct Sample { k: i32, }\nstruct Attributes { has_normal: bool, }
+    struct Shaded { rgb: vec3<real>, alpha: real, }\n";
+
+/// Rows of memberships: random ones, and corners.
+fn memberships() -> Vec<[f64; 6]> {
+    let mut next = random(5);
+    let mut table: Vec<[f64; 6]> = (0..3000).map(|_| std::array::from_fn(|_| next())).collect();
+    for i in 0..64 {
+        table.push(std::array::from_fn(|bit| f64::from(i >> bit & 1)));
+    }
+    table.push([0.5; 6]);
+    table
+}
+
+/// The operators, the shares beside three selections, and four sets together, two of which share what is there. Each result
+/// carries at most 12 roundings of numbers up to 3; colours are divided by a weight of at least 2⁻⁶.
+#[test]
+fn sets_by_either_operator() {
+    let Some(gpu) = gpu() else { return };
+    for (operators, module) in [(Fuzzy::Zadeh, "volumeshop/zadeh"), (Fuzzy::Product, "volumeshop/product")] {
+        let mut table = memberships();
+        table.retain(|row| row[..4].iter().sum::<f64>() > 1.0 / 64.0);
+        let kernel = Kernel {
+            modules: TYPES.to_owned() + &modules(&["number/number", module, "volumeshop/sets"]),
+            before: "let taken = taken_with(taken_with(taken_with(0.0, x[0]), x[1]), x[2]);
+                var sets = with_shared(with_shared(Sets(), vec3<real>(x[4]), x[0]), vec3<real>(x[5]), x[1]);
+                sets.union_mu = min(sets.shared_mu, 1.0);
+                sets = with_other(with_other(sets, vec3<real>(0.25), x[2]), vec3<real>(1.0), x[3]);
+                let all = combined(sets);",
+            results: &[
+                "both(x[0], x[1])",
+                "either(x[0], x[1])",
+                "without(x[0], x[1])",
+                "share_of_background(taken)",
+                "share_of_each(taken)",
+                "all.rgb.y",
+                "all.alpha",
+            ],
+            ..Kernel::default()
+        };
+        let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
+            let shares = Shares::beside(operators, [a, b, c].into_iter());
+            let set = |mu, color, shares| ObjectSet { rgb: [color; 3], mu, shares };
+            let sets = [set(a, e, true), set(b, f, true), set(c, 0.25, false), set(d, 1.0, false)];
+            let (rgb, alpha) = combined(operators, sets.into_iter());
+            [
+                intersection(operators, a, b),
+                union(operators, a, b),
+                minus(operators, a, b),
+                shares.background,
+                shares.of_each,
+                rgb[1],
+                alpha,
+            ]
+        };
+        let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
+        println!("{operators:?}: f64 {:.1e}, f32 {:.1e} of {:.1e}", found[0], found[1], 36.0 * U);
+        assert!(found[0] <= 1e-14 && found[1] <= 36.0 * U, "{operators:?}: {found:?}");
+    }
+}
+
+/// Places without members are transparent.
+#[test]
+fn nothing_together_is_transparent() {
+    let Some(gpu) = gpu() else { return };
+    let kernel = Kernel {
+        modules: TYPES.to_owned() + &modules(&["number/number", "volumeshop/zadeh", "volumeshop/sets"]),
+        before: "let all = combined(with_other(with_shared(Sets(), vec3<real>(x[0]), 0.0), vec3<real>(x[0]), 0.0));",
+        results: &["all.rgb.x", "all.alpha"],
+        ..Kernel::default()
+    };
+    let found = errors(&gpu, &kernel, &[[0.0], [0.5]], |_| [0.0; 2], |_, _, _| 1.0);
+    assert_eq!(found, [0.0; 2]);
+}
+
+/// Ghosting with its enhancement, the opacities of all presets, and means of colours by opacities of at least 2⁻⁶.
+#[test]
+fn ghosting_and_intersections() {
+    let Some(gpu) = gpu() else { return };
+    let mut table = memberships();
+    table.retain(|row| row[0] + row[1] > 1.0 / 64.0);
+    let presets = [
+        IntersectionOpacity::Max,
+        IntersectionOpacity::Over,
+        IntersectionOpacity::In,
+        IntersectionOpacity::Out,
+        IntersectionOpacity::Atop,
+        IntersectionOpacity::Xor,
+        IntersectionOpacity::Plus,
+    ];
+    let kernel = Kernel {
+        modules: TYPES.to_owned() + &modules(&["number/number", "volumeshop/ghosting", "volumeshop/meeting"]),
+        before: "let e = enhancement_of(x[2], x[3]);
+            let mean = mean_color(Shaded(vec3<real>(x[4]), x[0]), Shaded(vec3<real>(x[5]), x[1]), x[2]);
+            let none = mean_color(Shaded(vec3<real>(x[4]), 0.0), Shaded(vec3<real>(x[5]), 0.0), x[2]);",
+        results: &[
+            "opacity_of_both(0, x[0], x[1])",
+            "opacity_of_both(1, x[0], x[1])",
+            "opacity_of_both(2, x[0], x[1])",
+            "opacity_of_both(3, x[0], x[1])",
+            "opacity_of_both(4, x[0], x[1])",
+            "opacity_of_both(5, x[0], x[1])",
+            "opacity_of_both(6, x[0], x[1])",
+            "e",
+            "ghosting_factor(x[4], e)",
+            "mean.rgb.z",
+            "mean.alpha",
+            "none.alpha",
+        ],
+        ..Kernel::default()
+    };
+    let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
+        let mut all = [0.0; 12];
+        for (found, preset) in all.iter_mut().zip(presets) {
+            *found = intersections::opacity(preset, a, b);
+        }
+        let enhancement = spared(c, d);
+        let mean = intersections::mean(([e; 3], a), ([f; 3], b)).unwrap_or([0.0; 3]);
+        all[7..].copy_from_slice(&[enhancement, factor(e, enhancement), mean[2], c, 0.0]);
+        all
+    };
+    let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
+    println!("intersections: f64 {:.1e}, f32 {:.1e} of {:.1e}", found[0], found[1], 12.0 * U);
+    assert!(found[0] <= 1e-15 && found[1] <= 12.0 * U, "{found:?}");
+}
+
+/// Pictures of several sizes, one behind the other, within their ranges and beyond.
+#[test]
+fn pictures_of_intersections() {
+    let Some(gpu) = gpu() else { return };
+    for size in [[1, 1], [1, 4], [5, 1], [7, 3]] {
+        let mut next = random(9);
+        let pixels: Vec<[f64; 4]> =
+            (0..size[0] * size[1] + 2).map(|_| std::array::from_fn(|_| f64::from(next() as f32))).collect();
+        let mut table: Vec<[f64; 2]> = (0..1000).map(|_| [next() * 1.5 - 0.25, next() * 1.5 - 0.25]).collect();
+        table.extend([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]]);
+        let at = format!("let found = intersection_at(2, {}, {}, x[0], x[1]);", size[0], size[1]);
+        let kernel = Kernel {
+            modules: modules(&["number/number", "number/bilinear", "volumeshop/intersection_picture"]),
+            lists: &[(25, pixels.as_flattened())],
+            before: &at,
+            results: &["found.r", "found.g", "found.b", "found.a"],
+            ..Kernel::default()
+        };
+        // Two pixels of another picture come first.
+        let picture = IntersectionPicture { size, pixels: pixels[2..].to_vec(), has_opacity: true };
+        let found = errors(&gpu, &kernel, &table, |&row| picture.at(row), |_, _, _| 1.0);
+        println!("{size:?}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
+        assert!(found[0] <= 1e-15 && found[1] <= 32.0 * U, "{size:?}: {found:?}");
+    }
+}
