@@ -92,7 +92,7 @@ fn ball(level: usize) -> (Vec<DVec3>, Vec<[usize; 3]>) {
     // Corners of each side go around it the same way, as seen from outside.
     let side = |i: usize| {
         let [a, b, c] = [3 * (i & 1), 1 + 3 * (i >> 1 & 1), 2 + 3 * (i >> 2)];
-        if i.count_ones() % 2 == 0 { [a, b, c] } else { [a, c, b] }
+        if i.count_ones().is_multiple_of(2) { [a, b, c] } else { [a, c, b] }
     };
     let mut faces: Vec<[usize; 3]> = (0..8).map(side).collect();
     for _ in 0..level {

@@ -5,6 +5,7 @@ mod counts;
 mod cutaways;
 mod halos;
 mod identity;
+mod meetings;
 mod motions;
 mod painting;
 
