@@ -62,11 +62,8 @@ impl PlacedPart {
         };
         let axes = memberships.axes();
         let in_data = own.beside(memberships, axes);
-        // Of a selection by value values between voxels count, too.
-        let index_box = match selection.membership {
-            Membership::Value(_) => in_data.index_box,
-            Membership::Everything | Membership::Voxels => selection.index_box.unwrap_or(in_data.index_box),
-        };
+        let bricks = of_part.inputs.measured.bricks.as_ref();
+        let index_box = selection.members(&in_data.grid, bricks).unwrap_or(in_data.index_box);
         Ok(Self {
             part: i,
             place: own.beside(moved(&of_data)?, data.grid().axes()),

@@ -39,7 +39,7 @@ pub(super) struct PreparedSelection<'v, R> {
     pub(super) membership: PreparedMembership<'v, R>,
     /// The box of [VS-2], in the index space of the memberships' grid; none: nothing is selected.
     pub(super) index_box: Option<[DVec3; 2]>,
-    /// The box in which there can be members: of a selection by value that of the data, as values between voxels count, too.
+    /// The box in which there can be members.
     pub(super) members: Option<[DVec3; 2]>,
     /// The grid of the memberships at the original place.
     pub(super) here: Grid,
@@ -155,7 +155,12 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
                         (grid_in(data, world), PreparedMembership::Value(Piecewise::new(&at, &f)?))
                     }
                 };
-                PreparedSelection::new(params, grid, membership)
+                // What a selection by value has between voxels, ranges of bricks tell.
+                let field = parts.iter().find(|part| part.selection == i).map(|part| &part.object.field);
+                let by_value = matches!(params.membership, Membership::Value(_));
+                let bricks = field.filter(|_| by_value).map(Field::bricks);
+                let members = params.members(&grid, bricks.as_ref());
+                PreparedSelection::new(params, grid, members, membership)
             })
             .collect();
         let pictures = combination.intersections.iter().zip(&given.pictures);
@@ -244,13 +249,17 @@ impl PreparedFunnel {
 }
 
 impl<'v, R: Real> PreparedSelection<'v, R> {
-    fn new(params: &SelectionParams, here: Grid, membership: PreparedMembership<'v, R>) -> Result<Self, RenderError> {
+    fn new(
+        params: &SelectionParams,
+        here: Grid,
+        members: Option<[DVec3; 2]>,
+        membership: PreparedMembership<'v, R>,
+    ) -> Result<Self, RenderError> {
         let there = params.motion.map(|motion| placed(&here, Some(motion)).map_err(|_| RenderError::Motion));
-        let by_value = matches!(membership, PreparedMembership::Value(_));
         Ok(Self {
             membership,
             index_box: params.index_box,
-            members: if by_value { Some(here.index_box()) } else { params.index_box },
+            members,
             there: there.transpose()?,
             here,
             takes: !params.has_own_volume,

@@ -8,6 +8,7 @@ use crate::tables::{
 };
 use crate::transfer::Function;
 use crate::view::View;
+use crate::volume::{BRICK, Bricks};
 use glam::{DAffine3, DVec3};
 use serde::Serialize;
 use std::sync::Arc;
@@ -232,6 +233,37 @@ impl SelectionParams {
     }
 }
 
+impl SelectionParams {
+    /// The box in which there can be members, in the index space of the memberships' grid; none: nowhere. Of a selection by
+    /// value that is a box about the bricks whose range has members, as values between voxels count, too; without `bricks`,
+    /// which are those of the data's cells, it is the grid's.
+    pub fn members(&self, grid: &Grid, bricks: Option<&Bricks>) -> Option<[DVec3; 2]> {
+        let Membership::Value(pairs) = &self.membership else { return self.index_box };
+        let [low, high] = grid.index_box();
+        let Some(bricks) = bricks else { return Some([low, high]) };
+        let [nx, ny, _] = bricks.dims;
+        let among = bricks.ranges.iter().enumerate().filter(|(_, range)| has_members(pairs, **range));
+        let corners = among.map(|(i, _)| {
+            let first = DVec3::from_array([i % nx, i / nx % ny, i / (nx * ny)].map(|n| (n * BRICK) as f64));
+            [first, first + BRICK as f64]
+        });
+        let around = corners.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])?;
+        // An axis of one voxel reaches half a voxel each way.
+        let flat = (high - low).cmpeq(DVec3::ONE) & low.cmplt(DVec3::ZERO);
+        let inside = around.map(|corner| corner.clamp(low, high));
+        Some([DVec3::select(flat, low, inside[0]), DVec3::select(flat, high, inside[1])])
+    }
+}
+
+/// Whether a piecewise-linear function is above 0 at a value of a range, or at its border.
+fn has_members(pairs: &[[f64; 2]], [lo, hi]: [f64; 2]) -> bool {
+    pairs.iter().enumerate().filter(|(_, pair)| pair[1] > 0.0).any(|(i, _)| {
+        let before = i.checked_sub(1).map_or(f64::NEG_INFINITY, |i| pairs[i][0]);
+        let after = pairs.get(i + 1).map_or(f64::INFINITY, |pair| pair[0]);
+        before <= hi && lo <= after
+    })
+}
+
 impl Part {
     fn new(
         (object, role): (usize, Role),
@@ -257,4 +289,26 @@ pub fn placed(grid: &Grid, motion: Option<DAffine3>) -> Result<Grid, ShotError> 
     let Some(motion) = motion else { return Ok(grid.clone()) };
     let (axes, origin) = (motion.matrix3 * grid.axes(), motion.transform_point3(grid.origin()));
     Grid::new(grid.dims(), axes, origin).map_err(|_| ShotError::Motion)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Members between voxels are in the box of the bricks that have such values; a function that is 0 has none.
+    #[test]
+    fn members_by_value_are_where_bricks_have_them() {
+        let grid = Grid::with_spacing([9, 5, 1], [1.0; 3]).unwrap();
+        let bricks = Bricks::new([9, 5, 1], |_| vec![[0.0, 10.0], [10.0, 20.0]]);
+        let members = |pairs: &[[f64; 2]], bricks| {
+            let membership = Membership::Value(pairs.to_vec());
+            let params = SelectionParams { membership, index_box: None, motion: None, has_own_volume: false };
+            params.members(&grid, bricks)
+        };
+        let high = [[12.3, 0.0], [12.4, 1.0], [12.5, 0.0]];
+        assert_eq!(members(&high, Some(&bricks)), Some([DVec3::new(4.0, 0.0, -0.5), DVec3::new(8.0, 4.0, 0.5)]));
+        assert_eq!(members(&[[11.0, 1.0], [30.0, 0.0]], Some(&bricks)), Some(grid.index_box()));
+        assert_eq!(members(&[[0.0, 0.0], [9.0, 0.0]], Some(&bricks)), None);
+        assert_eq!(members(&high, None), Some(grid.index_box()));
+    }
 }
