@@ -1,4 +1,4 @@
-//! Faults that are planted in objects: each parts the pictures.
+//! Faults that are planted in objects: each parts the pictures. Formulas of sets, of ghosting and of presets have tables.
 
 use crate::double::load;
 use crate::gpu;
@@ -23,8 +23,6 @@ fn faults_of_objects_are_noticed() {
     let motion = "move = [2, -1, 1]\nrotate = { axis = [1, 2, 0.5], angle = 30 }\nscale = [0.9, 1.2, 0.8]\n";
     let meetings = "[[intersection]]\nobject = \"a\"\nwith = \"ghost\"\ncolor = \"#ff4010c0\"\n\
                     [[intersection]]\nobject = \"a\"\nwith = \"background\"\nopacity = \"over\"\nswap = true\n";
-    let meeting = "[[intersection]]\nobject = \"a\"\nwith = \"background\"\n";
-    let by_value = "[[object]]\nname = \"c\"\nvalue = [[90, 0], [130, 0.9]]\n";
     let scenes = [
         (
             shells(&(files.soft(motion) + meetings)),
@@ -33,30 +31,15 @@ fn faults_of_objects_are_noticed() {
                 ("- first_member_of_selection_0())", "- first_member_of_selection_0() - vec3<real>(1.0, 0.0, 0.0))"),
                 ("vec2(max(left.x, selection_range_0.x), min(left.y, selection_range_0.y));", "left;"),
                 ("moved_x_0() * g.x + moved_y_0() * g.y", "moved_x_0() * g.y + moved_y_0() * g.x"),
-                // Sets.
-                ("return 1.0 - taken;", "return 1.0;"),
-                ("sets.weight + mu, sets.shared_mu, either", "sets.weight, sets.shared_mu, either"),
                 // Meetings.
                 ("let wins = set_0.mu >= set_1.mu;", "let wins = set_0.mu < set_1.mu;"),
-                ("case 1: { return clamp_01(1.0 - (1.0 - a) * (1.0 - b)); }", "case 1: { return clamp_01(a * b); }"),
                 // Runs of samples.
                 ("return Span(min(span.end, range.x - 1), span.is_mixed);", "return Span(span.end, span.is_mixed);"),
             ],
         ),
         (
-            shells(&("[combine]\nfuzzy = \"product\"\n".to_owned() + &files.soft(motion) + by_value + meeting)),
-            vec![
-                ("min(a + b - a * b, 1.0)", "max(a, b)"),
-                ("return taken + f;", "return max(taken, f);"),
-                ("return 1.0 / max(taken, 1.0);", "return 1.0;"),
-                ("return sum + mu;", "return max(sum, mu);"),
-                ("return both(mu, 1.0 - taken);", "return mu;"),
-            ],
-        ),
-        (
             shells(&files.soft("ghosting = 0.4\nfunnel = \"1.5 px\"\ncut = \"object\"")),
             vec![
-                ("1.0 - gamma * (2.0 - enhancement)", "1.0 - gamma * (1.0 - enhancement)"),
                 ("min(2.0 * map.x, 1.0)", "min(map.x, 1.0)"),
                 ("for (var k = part_range_0.y; k", "for (var k = part_range_0.y - 4; k"),
             ],
