@@ -5,7 +5,7 @@ use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 
-/// Where a volume is drawn.
+/// The place of a volume as it is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     /// Its grid there.

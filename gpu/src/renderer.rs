@@ -50,14 +50,14 @@ pub struct Inputs<'a> {
     pub meshes: &'a [TriangleMesh],
     /// Whether frames can have lines inside the volume ([HATCH-14] d).
     pub has_lines: bool,
-    /// What the shot's objects name ([VS-2]).
+    /// The data that the shot's objects name ([VS-2]).
     pub objects: ObjectInputs<'a>,
 }
 
 /// The data that the objects of a shot name, each list in the shot's order.
 #[derive(Clone, Debug, Default)]
 pub struct ObjectInputs<'a> {
-    /// Those of selections and ghosts.
+    /// The data of selections and ghosts.
     pub parts: Vec<PartInputs<'a>>,
     /// The selection volumes; none where the selection is another one.
     pub selections: Vec<Option<&'a Selection>>,
@@ -68,7 +68,7 @@ pub struct ObjectInputs<'a> {
 /// The data that a selection or a ghost names.
 #[derive(Clone, Debug)]
 pub struct PartInputs<'a> {
-    /// Those of the part as a picture of its own.
+    /// The data of the part as a picture of its own.
     pub inputs: Inputs<'a>,
     /// The place of its volume among those that are uploaded.
     pub place: usize,
@@ -96,7 +96,7 @@ pub struct Renderer<'g> {
     clock: Option<Clock>,
     /// Lines inside the volume; none where no frame can have any.
     lines: Option<LinesOnRays>,
-    /// Where the shot's objects are drawn.
+    /// The places of the shot's objects.
     objects: PlacesOfObjects,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,

@@ -12,7 +12,7 @@ use drypoint_scene::shot::{Combination, Cut, Membership, Part, Role, Shot, place
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Anatomy;
 
-/// Where the parts of a shot are drawn; those whose selection has no members are left out.
+/// Places of the parts of a shot; parts whose selection has no members are left out.
 #[derive(Default)]
 pub(crate) struct PlacesOfObjects(Vec<PlacedPart>);
 
@@ -71,13 +71,13 @@ impl PlacedPart {
         })
     }
 
-    /// What the names of a part end with in the picture's shader.
+    /// The end of a part's names in the picture's shader.
     fn suffix(&self) -> String {
         objects::suffix(self.part)
     }
 }
 
-/// What the names of a selection end with in the shader of a part.
+/// The end of a selection's names in the shader of a part.
 const OF_SELECTION: &str = "_of_selection";
 
 /// Adds the objects of a shot, after all else.

@@ -1,4 +1,4 @@
-// What a lighting function enhances ([VS-5], [VS-7]).
+// The enhancement of a lighting function ([VS-5], [VS-7]).
 
 fn enhancement(ray: Ray, a: Attributes) -> real {
     if (!a.has_normal) {

@@ -1,4 +1,4 @@
-// What illustrative styles enhance: boundaries and contours ([VS-7]).
+// The enhancement of illustrative styles: boundaries and contours ([VS-7]).
 
 fn enhancement(ray: Ray, a: Attributes) -> real {
     if (!a.has_normal) {

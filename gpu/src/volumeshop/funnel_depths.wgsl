@@ -1,6 +1,6 @@
 // The far depths of objects with funnels, on the rays of a picture and of guard bands about it ([VS-7]).
 
-// Of each funnel its guard band in pixels, and the place of its first depth.
+// The guard band of each funnel in pixels, and the place of its first depth.
 @group(1) @binding(26) var<storage, read> funnel_bands: array<vec2<u32>>;
 @group(0) @binding(6) var<storage, read_write> funnel_depths: array<real>;
 

@@ -61,7 +61,7 @@ fn smooth_rows(@builtin(global_invocation_id) id: vec3<u32>) {
     smoothed[row + at.x] = sum;
 }
 
-// Of each pixel of the picture c~ and d^ = K*(cd)/c~; no coverage where there is no cut.
+// c~ and d^ = K*(cd)/c~ of each pixel of the picture; no coverage where there is no cut.
 @compute @workgroup_size(8, 8)
 fn map_funnels(@builtin(global_invocation_id) id: vec3<u32>) {
     let funnel = funnels[id.z];

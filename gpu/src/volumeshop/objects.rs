@@ -24,7 +24,7 @@ pub(crate) struct DrawnPart {
     pub(crate) scales: Scales,
 }
 
-/// What the names of a part end with.
+/// The end of a part's names.
 pub(crate) fn suffix(part: usize) -> String {
     format!("_{part}")
 }
@@ -60,7 +60,7 @@ pub(crate) fn add(
     shader.stages.objects = Some(text);
 }
 
-/// What a material enhances, which ghosting spares.
+/// The enhancement of a material, which ghosting spares.
 fn enhancement(material: &Material) -> Module {
     match material {
         Material::Style(style) if style.transparency == Transparency::Illustrative => module!("enhancement_of_style"),

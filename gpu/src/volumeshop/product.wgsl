@@ -9,7 +9,7 @@ fn either(a: real, b: real) -> real {
     return min(a + b - a * b, 1.0);
 }
 
-// What several selections take together, with one more.
+// The share that several selections take together, with one more.
 fn taken_with(taken: real, f: real) -> real {
     return taken + f;
 }

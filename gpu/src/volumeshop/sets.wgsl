@@ -12,7 +12,7 @@ struct Found {
     faded: real,
 }
 
-// What objects are together at a sample, and the sample and the attributes of the set that counts for most.
+// The colour and opacity of objects together at a sample, and the sample and the attributes of the set that counts for most.
 struct Together {
     shaded: Shaded,
     sample: Sample,

@@ -9,7 +9,7 @@ fn either(a: real, b: real) -> real {
     return max(a, b);
 }
 
-// What several selections take together, with one more.
+// The share that several selections take together, with one more.
 fn taken_with(taken: real, f: real) -> real {
     return max(taken, f);
 }
