@@ -1,7 +1,7 @@
 //! The algorithm without rounding: the same shaders in f64 equal the reference to 10⁻⁹.
 
 use crate::gpu;
-use drypoint::gpu::{GpuJob, Precision};
+use drypoint::gpu::{Gpu, GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::fragments::Fragments;
@@ -48,6 +48,17 @@ pub(crate) fn difference_in_double(scene: &str) -> Option<f64> {
 pub(crate) fn load(scene: &str) -> Job {
     let scene = parse(scene, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
     Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"))
+}
+
+/// Checks that a renderer that is turned from one job's camera to another's draws what a new one draws.
+pub(crate) fn follows_the_camera(gpu: &Gpu, [first, second]: [&Job; 2]) {
+    let [on_first, on_second] = [first, second].map(|job| GpuJob::new(job, gpu, Precision::Single).unwrap());
+    let mut turned = on_first.renderer().unwrap();
+    let before = turned.frame(&|_| ()).unwrap();
+    turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
+    let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
+    assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
+    assert_ne!(before.layers, fresh.layers);
 }
 
 /// The largest difference between the reference and shaders in f64 with a fault: a text in the place of another one.
@@ -159,13 +170,7 @@ fn contours_follow_the_camera() {
         ))
     };
     let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(of);
-    let [on_first, on_second] = [&first, &second].map(|job| GpuJob::new(job, &gpu, Precision::Single).unwrap());
-    let mut turned = on_first.renderer().unwrap();
-    let before = turned.frame(&|_| ()).unwrap();
-    turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
-    let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
-    assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
-    assert_ne!(before.layers, fresh.layers);
+    follows_the_camera(&gpu, [&first, &second]);
 }
 
 #[test]

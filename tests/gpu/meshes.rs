@@ -1,6 +1,6 @@
 //! Opaque meshes on the card, as the reference draws them ([VS-12]).
 
-use crate::double::{differences, differences_among, load};
+use crate::double::{differences, differences_among, follows_the_camera, load};
 use crate::gpu;
 use crate::lines::lines;
 use drypoint::gpu::{Gpu, GpuJob, Precision};
@@ -213,13 +213,7 @@ fn meshes_follow_the_camera() {
             load(&text.replace("[0.4, 1, -0.3]", direction))
         };
         let [first, second] = ["[0.4, 1, -0.3]", "[-1, 0.2, -0.4]"].map(of);
-        let [on_first, on_second] = [&first, &second].map(|job| GpuJob::new(job, &gpu, Precision::Single).unwrap());
-        let mut turned = on_first.renderer().unwrap();
-        let before = turned.frame(&|_| ()).unwrap();
-        turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
-        let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
-        assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
-        assert_ne!(before.layers, fresh.layers);
+        follows_the_camera(&gpu, [&first, &second]);
     }
 }
 

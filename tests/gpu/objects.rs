@@ -1,9 +1,8 @@
 //! Objects on the card: selections, ghosts, intersections and cutaways (Bruckner and Gröller 2005), as the reference draws
 //! them.
 
-use crate::double::{difference_in_double, load};
+use crate::double::{difference_in_double, follows_the_camera, load};
 use crate::gpu;
-use drypoint::gpu::{GpuJob, Precision};
 use std::path::{Path, PathBuf};
 
 /// A scene of shells under Blinn–Phong.
@@ -202,13 +201,7 @@ fn objects_follow_the_camera() {
         ))
     };
     let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(of);
-    let [on_first, on_second] = [&first, &second].map(|job| GpuJob::new(job, &gpu, Precision::Single).unwrap());
-    let mut turned = on_first.renderer().unwrap();
-    let before = turned.frame(&|_| ()).unwrap();
-    turned.turn(&second.shot().unwrap(), first.volume.grid()).unwrap();
-    let fresh = on_second.renderer().unwrap().frame(&|_| ()).unwrap();
-    assert_eq!(turned.frame(&|_| ()).unwrap().layers, fresh.layers);
-    assert_ne!(before.layers, fresh.layers);
+    follows_the_camera(&gpu, [&first, &second]);
 }
 
 /// The shells in illustrative styles with contours by κ along the ray.
