@@ -8,7 +8,7 @@
 use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::Job;
 use drypoint::reference::ray::Renderer;
-use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::space::Grid;
 use drypoint::scene::view::View;
 use drypoint::scene::volume::write::write_nrrd;
@@ -125,7 +125,10 @@ fn job(folder: &Path, side: usize, grid: &Grid) -> Result<Job, String> {
         write_nrrd(&cube, &file).map_err(|e| e.to_string())?;
         text += &format!("[[object]]\nselection = \"{}\"\n", file.display());
     }
-    let scene = parse(&text, Path::new("table_1.toml"), &Overrides::default()).map_err(|e| e.to_string())?;
+    // Volumes are found for scenes that are files.
+    let file = folder.join(format!("{side}.toml"));
+    std::fs::write(&file, text).map_err(|e| e.to_string())?;
+    let scene = load(&file, &Overrides::default()).map_err(|e| e.to_string())?;
     Job::load(scene).map_err(|e| e.to_string())
 }
 

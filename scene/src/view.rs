@@ -98,6 +98,15 @@ impl View {
         }
     }
 
+    /// The point of the picture at which a world position is seen, as [`ray`](Self::ray) counts points; none where it is not
+    /// in front of the eye.
+    pub fn point_of(&self, p: DVec3) -> Option<[f64; 2]> {
+        let p = self.to_eye(p);
+        let depth = if self.perspective { -p.z } else { 1.0 };
+        let from_middle = [p.x, -p.y].map(|x| x / depth / self.pixel);
+        (depth > 0.0).then(|| std::array::from_fn(|a| self.size[a] as f64 / 2.0 + from_middle[a]))
+    }
+
     /// World to eye space, for directions.
     pub fn direction_to_eye(&self, d: DVec3) -> DVec3 {
         DVec3::new(d.dot(self.right), d.dot(self.up), -d.dot(self.forward))
@@ -183,6 +192,24 @@ mod tests {
         assert_eq!(ray.along, DVec3::Y);
         assert_eq!(ray.v, DVec3::Z);
         assert_eq!(view.to_eye(DVec3::new(5.0, 6.0, 5.0)), DVec3::new(0.0, 0.0, -1.0));
+    }
+
+    /// Every point of a ray before the eye is seen where the ray goes through the picture.
+    #[test]
+    fn points_of_a_ray_are_seen_at_one_place() {
+        for projection in [Projection::Perspective { fov: 40.0 }, Projection::Orthographic { height: None }] {
+            let camera = Camera { projection, direction: DVec3::new(0.3, 1.0, -0.2), ..Camera::default() };
+            let view = View::new(&camera, &grid(), [30, 20]).unwrap();
+            for at in [[0.0, 0.0], [29.5, 3.25], [-7.0, 24.0]] {
+                let ray = view.ray(at[0], at[1]);
+                for depth in [0.125, 1.0, 90.0] {
+                    let seen = view.point_of(ray.origin + ray.along * depth).unwrap();
+                    assert!((0..2).all(|a| (seen[a] - at[a]).abs() < 1e-10), "{seen:?} {at:?}");
+                }
+            }
+            let behind = view.point_of(view.eye - view.forward);
+            assert_eq!(behind.is_some(), !view.perspective);
+        }
     }
 
     #[test]

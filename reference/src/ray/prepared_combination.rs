@@ -32,6 +32,9 @@ pub(super) struct PreparedCombination<'v, R> {
     pub(super) parts: Vec<PreparedPart<'v, R>>,
     pub(super) cutaways: Vec<PreparedCutaway>,
     pub(super) intersections: Vec<PreparedIntersection<'v>>,
+    /// The part of the picture in which rays can meet the box of a selection, from the top left corner to the bottom right
+    /// one; none: all of it.
+    reach: Option<[[f64; 2]; 2]>,
 }
 
 /// A selection ready for look-ups.
@@ -164,9 +167,11 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             })
             .collect();
         let pictures = combination.intersections.iter().zip(&given.pictures);
+        let selections = selections?;
         Ok(Self {
             fuzzy: combination.fuzzy,
-            selections: selections?,
+            reach: reach(&selections, camera.view),
+            selections,
             parts,
             cutaways: combination.cutaways.iter().map(|&params| PreparedCutaway { params, funnel: None }).collect(),
             intersections: pictures
@@ -210,16 +215,21 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
 
     /// Whether the ray through a point of the picture can meet an object, or a cutaway for one.
     pub(super) fn meets(&self, prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
+        let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
+        if self.cutaways.iter().any(in_funnel) {
+            return true;
+        }
+        if self.reach.is_some_and(|[lo, hi]| (0..2).any(|a| point[a] < lo[a] || hi[a] < point[a])) {
+            return false;
+        }
         let pixel = prepared.view.ray(point[0], point[1]);
         let through = |grid: &Grid, ends: Option<[DVec3; 2]>| {
             let line = IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, grid).line();
             ends.is_some_and(|ends| through_box(line, ends).is_some())
         };
-        let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
         self.selections
             .iter()
             .any(|s| through(&s.here, s.members) || s.there.as_ref().is_some_and(|grid| through(grid, s.members)))
-            || self.cutaways.iter().any(in_funnel)
     }
 
     /// Takes over what depends on the camera.
@@ -227,7 +237,27 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         for (prepared, part) in self.parts.iter_mut().zip(&combination.parts) {
             prepared.object.shader.turn(&part.drawn, view);
         }
+        self.reach = reach(&self.selections, view);
     }
+}
+
+/// The part of a picture in which rays can meet the box of a selection; none where a box reaches behind the eye.
+fn reach<R>(selections: &[PreparedSelection<'_, R>], view: &View) -> Option<[[f64; 2]; 2]> {
+    // Rounding stays below a pixel.
+    const MARGIN: f64 = 1.0;
+    let mut reach = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for selection in selections {
+        let Some(ends) = selection.members else { continue };
+        for grid in [Some(&selection.here), selection.there.as_ref()].into_iter().flatten() {
+            for corner in 0..8 {
+                let corner = DVec3::from_array(std::array::from_fn(|axis| ends[corner >> axis & 1][axis]));
+                let point = view.point_of(grid.to_world(corner))?;
+                reach[0] = std::array::from_fn(|a| reach[0][a].min(point[a] - MARGIN));
+                reach[1] = std::array::from_fn(|a| reach[1][a].max(point[a] + MARGIN));
+            }
+        }
+    }
+    Some(reach)
 }
 
 impl PreparedFunnel {

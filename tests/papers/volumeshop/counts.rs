@@ -1,6 +1,6 @@
 //! Only what is called for: rays and samples that meet no object do the work of a scene without ([VS-2]).
 
-use super::{LIT, SHELLS, drawn, layer, scene_of};
+use super::{LIT, SHELLS, drawn, job_of, layer, scene_of};
 use drypoint::scene::picture::LayerKind;
 
 fn counted(rest: &str) -> (Vec<f64>, u64) {
@@ -31,4 +31,26 @@ fn a_selection_beside_the_background_is_one_look_up() {
     let (_, beside) = counted(&format!("{camera}[[object]]\nmove = [40, 0, 0]\n"));
     // The same samples once at each place; the field between bricks is skipped at neither.
     assert!(beside > 2 * here - here / 4 && beside <= 2 * here + here / 4, "{here} {beside}");
+}
+
+/// Rays beside all objects are cast side by side, and every ray shows the bits that it shows alone: from afar, from between the
+/// places of a moved selection, and from within one.
+#[test]
+fn rays_beside_objects_are_cast_as_if_alone() {
+    const MOVED: &str = "[[object]]\nvalue = [[190, 0], [200, 1]]\nmove = [9, 0, 3]\n";
+    const CUT: &str = "ghosting = 0.6\nfunnel = \"2 px\"\n";
+    for camera in [
+        "direction = [1, 0.3, 0.2]",
+        "direction = [0, 1, 0]\nprojection = \"orthographic\"",
+        "eye = [20, 16, 16]\ntarget = [0, 15, 14]\nfov = 60",
+        "eye = [15.5, 15.5, 15.5]\ntarget = [40, 15, 20]\nfov = 90",
+    ] {
+        for more in ["", CUT] {
+            let job = job_of(&scene_of(SHELLS, &format!("{LIT}[camera]\n{camera}\n{MOVED}{more}")));
+            let renderer = || job.renderer().unwrap();
+            assert!(renderer().in_lanes());
+            let [together, alone] = [renderer(), renderer().ray_by_ray()].map(|renderer| renderer.again(&|_| ()));
+            assert!(together.0 == alone.0, "{camera} {more}");
+        }
+    }
 }

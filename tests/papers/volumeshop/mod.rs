@@ -20,11 +20,16 @@ pub(super) fn scene_of(volume: &str, rest: &str) -> String {
     format!("drypoint = 1\n[volume]\n{volume}\n[picture]\nsize = [24, 20]\nsamples = 1\nbackground = \"none\"\n{rest}")
 }
 
-/// The picture of a scene, and its counts.
-pub(super) fn drawn(text: &str) -> (Picture, Counts) {
+/// A scene that can be drawn.
+pub(super) fn job_of(text: &str) -> Job {
     let scene = parse(text, Path::new("scene.toml"), &Overrides::default());
     let scene = scene.unwrap_or_else(|faults| panic!("{faults}\n{text}"));
-    let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}\n{text}"));
+    Job::load(scene).unwrap_or_else(|failures| panic!("{failures}\n{text}"))
+}
+
+/// The picture of a scene, and its counts.
+pub(super) fn drawn(text: &str) -> (Picture, Counts) {
+    let job = job_of(text);
     let renderer = job.renderer().unwrap_or_else(|failure| panic!("{failure}\n{text}"));
     renderer.again(&|_| ())
 }
