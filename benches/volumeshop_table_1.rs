@@ -102,7 +102,7 @@ fn measure(views: &[View], mut frame: impl FnMut(usize, &View) -> Result<f64, St
     for (i, (side, frames)) in PAPER.into_iter().enumerate() {
         let name = if side == 0 { "none".into() } else { format!("{side}³") };
         let (time, ratio) = (median(&mut seconds[i]) * 1e3, median(&mut ratios[i]));
-        println!("| {name} | {time:.1} | {ratio:.3} | {:.3} |", PAPER[0].1 / frames);
+        println!("| {name} | {time:.2} | {ratio:.3} | {:.3} |", PAPER[0].1 / frames);
     }
     Ok(())
 }

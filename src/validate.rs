@@ -87,10 +87,15 @@ pub struct Bounded {
 }
 
 impl Validation {
-    /// Whether a bound is exceeded, the algorithms part, or too few pixels have a bound that says something.
+    /// Whether a bound is exceeded, or the algorithms part.
+    pub fn is_wrong(&self) -> bool {
+        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
+    }
+
+    /// Whether it is wrong, or too few pixels have a bound that says something.
     pub fn fails(&self) -> bool {
-        let fails = |bounded: &Bounded| bounded.exceeded > 0 || bounded.undecided + bounded.endless > MOST_OPEN;
-        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(fails)
+        let is_open = |bounded: &Bounded| bounded.undecided + bounded.endless > MOST_OPEN;
+        self.is_wrong() || self.bounded.as_ref().is_some_and(is_open)
     }
 }
 

@@ -35,18 +35,15 @@ pub(crate) fn shader(
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
-    if shot.combination.is_some() && !shot.halos.list.is_empty() {
-        return Err(GpuError::Missing { what: "halos beside objects", key: "halo" });
-    }
     let place = Place::own(shot, inputs.volume.grid());
-    let (mut shader, scales) = of_volume((shot, layers), inputs, &place, precision, interpolation)?;
+    let (mut shader, scales) = of_volume((shot, layers, false), inputs, &place, precision, interpolation)?;
     objects::add(&mut shader, shot, inputs, &scales, precision)?;
     Ok((shader, scales))
 }
 
-/// The shader of a shot without its objects, for a volume at a place.
+/// The shader of a shot without its objects, for a volume at a place; `is_part` says whether it is one of a picture's parts.
 fn of_volume(
-    (shot, layers): (&Shot, &[LayerKind]),
+    (shot, layers, is_part): (&Shot, &[LayerKind], bool),
     inputs: &Inputs<'_>,
     place: &Place,
     precision: Precision,
@@ -154,7 +151,7 @@ fn of_volume(
     ray::add_pixels(&mut shader, shot, inputs.background);
     ray::layers::add(&mut shader, layers);
     if has_halos {
-        volumetric_halos::add(&mut shader, shot, own, inputs, &scales, precision)?;
+        volumetric_halos::add(&mut shader, (shot, is_part), own, (inputs, place), &scales, precision)?;
     }
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))

@@ -13,7 +13,7 @@ use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
-use crate::volumetric_halos::planes::HaloPlanes;
+use crate::volumetric_halos::planes::{HaloPlanes, corners};
 use crate::{Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::fragments::Fragments;
@@ -76,8 +76,8 @@ pub struct PartInputs<'a> {
 
 /// The order in which rays are drawn.
 enum Rays {
-    /// Each ray alone, band by band, after the funnels of smooth cutaways.
-    Alone(RayPasses, Option<FunnelPasses>),
+    /// Each ray alone, band by band.
+    Alone(RayPasses),
     /// All rays together, plane by plane.
     Together(Box<HaloPlanes>),
 }
@@ -96,6 +96,8 @@ pub struct Renderer<'g> {
     clock: Option<Clock>,
     /// Lines inside the volume; none where no frame can have any.
     lines: Option<LinesOnRays>,
+    /// The funnels of smooth cutaways, which are mapped before all else.
+    funnels: Option<FunnelPasses>,
     /// The places of the shot's objects.
     objects: PlacesOfObjects,
     /// The layers that the shot asks for.
@@ -133,21 +135,17 @@ impl<'g> Renderer<'g> {
         let data = bind_data(gpu, volumes, &shader, &data_layout, precision)?;
         let grid = inputs.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
+        let objects = PlacesOfObjects::new(shot, inputs)?;
+        let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
         let rays = if shot.halos.list.is_empty() {
-            let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
             let of_lines = lines.iter().flat_map(|_| [LINE_STARTS, LINES]);
             let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
-            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?, funnels)
+            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
-            let shader = (&shader, text.as_str());
-            Rays::Together(Box::new(HaloPlanes::new(
-                gpu,
-                shot,
-                (grid, inputs.meshes),
-                shader,
-                &data_layout,
-                precision,
-            )?))
+            let others = inputs.meshes.iter().flat_map(corners).chain(objects.corners()).collect();
+            let (shader, has_funnels) = ((&shader, text.as_str()), funnels.is_some());
+            let planes = HaloPlanes::new(gpu, shot, (grid, others), has_funnels, shader, &data_layout, precision)?;
+            Rays::Together(Box::new(planes))
         };
         let params = buffer(
             gpu,
@@ -170,7 +168,8 @@ impl<'g> Renderer<'g> {
             presentation: None,
             clock: Clock::new(gpu)?,
             lines,
-            objects: PlacesOfObjects::new(shot, inputs)?,
+            objects,
+            funnels,
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
@@ -281,20 +280,21 @@ impl<'g> Renderer<'g> {
     fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<(), GpuError> {
         let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
         let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress };
+        if let Some(funnels) = &self.funnels {
+            canvas.write_params(&self.shader.block, self.precision)?;
+            funnels.draw(&canvas)?;
+        }
+        let maps = self.funnels.as_ref().map(FunnelPasses::maps);
         match &self.rays {
-            Rays::Alone(passes, funnels) => {
+            Rays::Alone(passes) => {
                 let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
                 let of_lines = lines.iter().flat_map(|[starts, lines]| [(LINE_STARTS, starts), (LINES, lines)]);
-                let further: Vec<_> = of_lines.chain(funnels.iter().map(|funnels| (MAPS, funnels.maps()))).collect();
-                if let Some(funnels) = funnels {
-                    canvas.write_params(&self.shader.block, self.precision)?;
-                    funnels.draw(&canvas)?;
-                }
+                let further: Vec<_> = of_lines.chain(maps.map(|maps| (MAPS, maps))).collect();
                 passes.draw(&canvas, (&mut self.shader.block, self.precision), &further, rows)
             }
             Rays::Together(planes) => {
                 canvas.write_params(&self.shader.block, self.precision)?;
-                planes.draw(&canvas)
+                planes.draw(&canvas, maps)
             }
         }
     }

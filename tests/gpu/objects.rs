@@ -188,20 +188,60 @@ fn looks_of_parts() {
     ]);
 }
 
-/// A renderer that is turned draws what a new one draws: the rays of parts, and light from the world.
+/// Each part seeds by its own sample, in the guard band too ([VS-2]).
+#[test]
+fn halos_of_parts() {
+    let files = Files::new();
+    let near = files.soft("move = [3, -2, 1]\nrotate = { axis = [1, 2, 0.5], angle = 30 }");
+    let of = |part: &str, more: &str| format!("[[halo]]\nobject = \"{part}\"\n{more}\n");
+    let bright = "kind = \"emissive\"\nevery = 2\nseed.value = [[60, 0], [120, 1], [200, 0.4]]";
+    let focus = "seed = { focus = { at = [[16, 10, 12]], inner = 2, falloff = 9 }, direction = { toward = 30, width = 120, softness = 40 } }";
+    let each = of("a", bright) + &of("a ghost", focus) + &of("background", "every = 3\naccumulate = \"mean\"");
+    let cut = "move = [2, 3, 1]\nghosting = 0.8\nghosting_of_ghost = 0.3\nfunnel = \"2 px\"";
+    let layers = "layers = [\"beauty\", \"normal\", \"depth\", \"first\", \"counts\", \"halo0\", \"halo1\"]";
+    let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0, -1, 0]\nspace = \"index\"\ncap = \"#ff3010c0\"\n\
+                applies = [\"background\", \"a\"]\n[surface]\niso = 110\ncolor = \"#c0c0c0\"\n";
+    let by_value = object("c", "value = [[90, 0], [130, 0.8], [200, 0.3]]\nmove = [3, 0, 0]");
+    let small = |(name, scene): (_, String)| (name, scene.replace("size = [40, 32]", "size = [20, 16]"));
+    let variants = vec![
+        ("all sets together", shells(&(near.clone() + "[[halo]]\n"))),
+        ("each set a halo, by products", shells(&(PRODUCT.to_owned() + &near + &each))),
+        (
+            "in a funnel, with layers",
+            SHELLS.replace("LAYERS", layers) + &files.soft(cut) + "[[halo]]\nfloor = 0.1\n" + &of("background", ""),
+        ),
+        (
+            "by objects, of data of its own, two rays across",
+            shells(
+                &(files.own("move = [3, 0, 0]\nghosting = 0.6\ncut = \"object\"")
+                    + &by_value
+                    + "[[halo]]\nevery = 4\n"),
+            )
+            .replace("samples = 1\n", "samples = 4\n"),
+        ),
+        ("cut, before an iso-surface", shells(&(near.clone() + clip + "[[halo]]\n"))),
+        ("by curvature, of styles", styled(&(near.clone() + "[[halo]]\nseed.by = \"curvature\"\n"))),
+        ("by gradient magnitudes", two_quantities(&(near + "[[halo]]\nkind = \"emissive\"\n"))),
+    ];
+    compare(variants.into_iter().map(small).collect());
+}
+
+/// A renderer that is turned draws what a new one draws: the rays of parts, light from the world, and planes of halos.
 #[test]
 fn objects_follow_the_camera() {
     let Some(gpu) = gpu() else { return };
     let files = Files::new();
-    let of = |direction: &str| {
+    let of = |direction: &str, halo: &str| {
         let light = "[object.shading]\nmodel = \"lighting-function\"\npreset = \"blinn-phong-contours\"\nlight = { world = [1, 0.2, 0.1] }\n";
         load(&shells(
             &(format!("[camera]\ndirection = {direction}\n")
-                + &files.soft(&format!("{MOVED}\nghosting = 0.7\nfunnel = \"2 px\"\n{light}"))),
+                + &files.soft(&format!("{MOVED}\nghosting = 0.7\nfunnel = \"2 px\"\n{light}{halo}"))),
         ))
     };
-    let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(of);
-    follows_the_camera(&gpu, [&first, &second]);
+    for halo in ["", "[[halo]]\n"] {
+        let [first, second] = ["[0.2, 1, -0.4]", "[-1, 0.2, -0.4]"].map(|direction| of(direction, halo));
+        follows_the_camera(&gpu, [&first, &second]);
+    }
 }
 
 /// The shells in illustrative styles with contours by κ along the ray.

@@ -7,8 +7,9 @@ use crate::place::Place;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::objects::{self, DrawnPart};
 use crate::{GpuError, Inputs, PartInputs, Precision, ray, volumeshop};
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Combination, Cut, Membership, Part, Role, Shot, placed};
+use drypoint_scene::shot::{Combination, Cut, HaloSeed, Membership, Part, Role, Shot, placed};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Anatomy;
 
@@ -26,6 +27,11 @@ struct PlacedPart {
 }
 
 impl PlacesOfObjects {
+    /// The corners of the boxes of their data.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.0.iter().flat_map(|placed| placed.place.grid.world_corners())
+    }
+
     pub(crate) fn new(shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
         let (Some(combination), given) = (&shot.combination, &inputs.objects) else { return Ok(Self::default()) };
         if given.parts.len() != combination.parts.len()
@@ -97,8 +103,9 @@ pub(super) fn add(
         let is_moved = selection.motion.is_some() && part.role == Role::Selection;
         let takes = !selection.has_own_volume && !is_moved;
         let part_shot = shot_of(shot, part);
+        let seeds = !part_shot.halos.list.is_empty();
         let (mut of_this, scales_of_part) = of_volume(
-            (&part_shot, &[LayerKind::Beauty]),
+            (&part_shot, &[LayerKind::Beauty], true),
             &of_part.inputs,
             &placed.place,
             precision,
@@ -116,14 +123,27 @@ pub(super) fn add(
             &scales_of_part,
         );
         let is_of_volume = std::ptr::eq(of_part.inputs.volume, inputs.volume) && !is_moved;
-        volumeshop::part::add(&mut of_this, selection, is_of_volume, takes, has_last_member, [&scales_of_part, scales]);
+        volumeshop::part::add(
+            &mut of_this,
+            selection,
+            is_of_volume,
+            takes,
+            (has_last_member, seeds),
+            [&scales_of_part, scales],
+        );
         of_this.attach(of_selection, precision, OF_SELECTION, volumeshop::selection::NAMES, true);
         for (_, _, data) in &mut of_this.data {
             if let Data::Numbers(place) | Data::Voxels(place) | Data::Smoothed(place) = data {
                 *place = of_part.place;
             }
         }
-        drawn.push(DrawnPart { part: placed.part, takes, is_ghost: part.role == Role::Ghost, scales: scales_of_part });
+        drawn.push(DrawnPart {
+            part: placed.part,
+            takes,
+            seeds,
+            is_ghost: part.role == Role::Ghost,
+            scales: scales_of_part,
+        });
         shaders.push((of_this, placed.suffix()));
     }
     objects::add(shader, combination, &inputs.objects.pictures, &drawn, (shot, scales), precision);
@@ -162,6 +182,15 @@ fn shot_of(shot: &Shot, part: &Part) -> Shot {
         layers: vec![LayerKind::Beauty],
         ..shot.clone()
     };
-    of_part.halos.list.clear();
+    // Its seeds are its own; a part of which no halo takes any has no halo.
+    match part.seeds.as_ref().filter(|own| own.list.iter().any(HaloSeed::can_seed)) {
+        Some(own) => {
+            of_part.halos.query = own.query;
+            for (halo, seed) in of_part.halos.list.iter_mut().zip(&own.list) {
+                halo.seed = seed.clone();
+            }
+        }
+        None => of_part.halos.list.clear(),
+    }
     of_part
 }

@@ -500,11 +500,10 @@ fn every_pair_of_effects_has_a_valid_shader() {
         seen.extend(pairs);
     }
     // Pairs without a scene: analytic Hessians of kernels that are not smooth enough, neither a function nor a surface, halos
-    // on shells, beside objects and with lines.
+    // on shells and with lines.
     let impossible = [("Hessian", 1, "kernel", 0), ("Hessian", 1, "kernel", 4), ("surface", 0, "material", 0)];
     let of_halos = |a, b| (1..6).map(move |i| if a == "halos" { (a, i, b, 1) } else { (a, 1, b, i) });
-    let of_objects = (1..4).flat_map(|i| (1..6).map(move |j| ("objects", i, "halos", j)));
-    let impossible = impossible.into_iter().chain(of_halos("halos", "planes")).chain(of_objects);
+    let impossible = impossible.into_iter().chain(of_halos("halos", "planes"));
     let impossible = impossible.chain(of_halos("lines", "halos"));
     let impossible: Vec<_> = impossible.map(|(a, i, b, j)| [place(a), i, place(b), j]).collect();
     let all = (0..sizes.len()).flat_map(|a| (0..a).map(move |b| (a, b)));

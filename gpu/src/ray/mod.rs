@@ -90,8 +90,9 @@ pub(crate) fn ends_rays(shot: &Shot) -> bool {
 /// Adds the loop over samples and what it calls.
 pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, has_lines: bool) {
     let [object] = &shot.objects;
-    let among = if shot.combination.is_some() { volumeshop::CAST_AMONG } else { module!("cast_alone") };
-    shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast"), among]);
+    let cast = if shot.combination.is_some() { &volumeshop::CAST_AMONG[..] } else { &[module!("cast_alone")] };
+    shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
+    shader.add(cast);
     if has_lines {
         lines::add(shader);
     } else {

@@ -1,6 +1,6 @@
 // The background among objects: the picture's volume less what is selected of it (eqs. 1 to 3; [VS-2], [VS-7]).
 
-const NO_PLANE = -0x7fffffff;
+const NO_SAMPLE = -0x7fffffff;
 
 // Planes from the anchor that stand for none.
 const NOT_MET = 4.0e6;
@@ -22,12 +22,7 @@ fn aim_background(ray: Ray) {
     own_ray = ray;
     own_box = samples_inside(ray);
     own_run = samples_left(ray, own_box);
-    here_k = NO_PLANE;
-}
-
-// Notes a sample of the volume or of a part whose value is evaluated.
-fn note_sample(sample: Sample) {
-    visited(sample);
+    here_k = NO_SAMPLE;
 }
 
 // Looks up the volume's sample k once; none outside the box and in masked cells.

@@ -3,7 +3,8 @@
 use crate::buffers::{buffer, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::number::{DOUBLE, SINGLE};
-use crate::shader::{Data, Shader, module};
+use crate::shader::{Constant, Data, Shader, module};
+use crate::volumetric_halos::planes::image_size;
 use crate::{Gpu, GpuError, Precision};
 use drypoint_scene::math;
 use drypoint_scene::shot::Shot;
@@ -17,6 +18,7 @@ pub(crate) const MAPS: u32 = 5;
 /// The funnel of a cutaway.
 struct Funnel {
     sigma: f64,
+    /// Pixels of its map across and down.
     size: [usize; 2],
 }
 
@@ -60,7 +62,19 @@ impl Funnel {
 fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
     let cutaways = shot.combination.iter().flat_map(super::cutaways);
     let smooth = cutaways.filter(|cutaway| cutaway.funnel > 0.0);
-    smooth.map(|cutaway| Funnel { sigma: cutaway.funnel, size: shot.view.size })
+    let size = map_size(shot);
+    smooth.map(move |cutaway| Funnel { sigma: cutaway.funnel, size })
+}
+
+/// Pixels about the picture over which maps of funnels reach: the guard band of halos, whose seeds are cut as in a larger
+/// picture.
+fn margin(shot: &Shot) -> usize {
+    image_size(shot).guard.div_ceil(shot.rays_across.max(1))
+}
+
+/// Pixels across and down of maps of funnels.
+fn map_size(shot: &Shot) -> [usize; 2] {
+    shot.view.size.map(|n| n + 2 * margin(shot))
 }
 
 /// The share of a step by which a sample has to lie before the end of a funnel, so that rounding does not decide.
@@ -75,6 +89,10 @@ fn slack(precision: Precision) -> f64 {
 pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
     let mut first = 0;
     let mut bands = Vec::new();
+    let [across, down] = map_size(shot);
+    for (name, n) in [("FUNNEL_X", across), ("FUNNEL_Y", down), ("FUNNEL_MARGIN", margin(shot))] {
+        shader.constant(name, Constant::Int(n as i64));
+    }
     for funnel in funnels(shot) {
         bands.extend([funnel.guard() as u32, first as u32]);
         first += funnel.banded().iter().product::<usize>();
@@ -85,7 +103,7 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
     shader.bind(26, "the bands of funnels", Data::Words(bands));
 }
 
-/// The shader that makes maps of far depths, for a picture of `size`.
+/// The shader that makes maps of far depths, of so many pixels across and down.
 pub(crate) fn text_of_maps(precision: Precision, [width, height]: [usize; 2]) -> String {
     let number = if precision == Precision::Single { SINGLE } else { DOUBLE };
     let sizes = format!("const WIDTH = {width};\nconst HEIGHT = {height};");
@@ -132,7 +150,7 @@ impl FunnelPasses {
             depths += banded[0] * banded[1];
             most = [most[0].max(banded[0]), most[1].max(banded[1])];
         }
-        let [width, height] = shot.view.size;
+        let [width, height] = map_size(shot);
         let list = |bytes: &[u8]| buffer(gpu, "the funnels", bytes, wgpu::BufferUsages::STORAGE);
         let room = |reals: usize| list(&vec![0; reals * precision.size() as usize]);
         let (funnel_list, half_list) = (list(bytemuck::cast_slice(&numbers))?, list(bytemuck::cast_slice(&halves))?);
@@ -149,7 +167,7 @@ impl FunnelPasses {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         })?;
-        let text_of_maps = text_of_maps(precision, shot.view.size);
+        let text_of_maps = text_of_maps(precision, map_size(shot));
         let smooth = |entry_point| pipeline(gpu, text_of_maps.clone(), entry_point, &[&layout]);
         let smooth = [smooth("dilate")?, smooth("smooth_rows")?, smooth("map_funnels")?];
         let group = gpu.attempt("the funnels", || {

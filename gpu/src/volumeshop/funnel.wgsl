@@ -3,10 +3,11 @@
 // The coverage c~ and the mean depth d^ of each pixel of each funnel.
 @group(0) @binding(5) var<storage, read> funnel_maps: array<vec2<real>>;
 
+// The pixel in the maps, which reach over the guard band of halos.
 var<private> funnel_pixel: vec2<i32>;
 
 fn begin_funnel(pixel: vec2<i32>, part: i32, across: i32) {
-    funnel_pixel = pixel;
+    funnel_pixel = clamp(pixel + FUNNEL_MARGIN, vec2(0), vec2(FUNNEL_X, FUNNEL_Y) - 1);
 }
 
 // Depths of planes of a ray, and planes at depths.
@@ -21,7 +22,7 @@ fn plane_at_depth(ray: Ray, depth: real) -> real {
 // The plane at which a funnel ends: d~ = z_in + min(1, 2 c~)(d^ - z_in), z_in where the ray comes into the volume's box, or that
 // of the object where the ray hits it and it is farther.
 fn funnel_end(funnel: i32, plane: real) -> real {
-    let map = funnel_maps[(funnel * HEIGHT + funnel_pixel.y) * WIDTH + funnel_pixel.x];
+    let map = funnel_maps[(funnel * FUNNEL_Y + funnel_pixel.y) * FUNNEL_X + funnel_pixel.x];
     let through = through_box(own_ray, box_low(), box_high());
     if (!(map.x > 1.0e-6) || through.x > through.y) {
         return plane;

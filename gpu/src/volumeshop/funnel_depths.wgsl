@@ -10,12 +10,12 @@ const NO_DEPTH = -3.0e38;
 @compute @workgroup_size(8, 8)
 fn find_depths(@builtin(global_invocation_id) id: vec3<u32>) {
     let band = vec2<i32>(funnel_bands[id.z]);
-    let size = vec2(WIDTH, HEIGHT) + 2 * band.x;
+    let size = vec2(FUNNEL_X, FUNNEL_Y) + 2 * band.x;
     let at = vec2<i32>(id.xy);
     if (any(at >= size)) {
         return;
     }
-    let pixel = at - band.x;
+    let pixel = at - band.x - FUNNEL_MARGIN;
     let point = point_of(pixel, 0, 1);
     aim_parts(point);
     let ray = ray_through(point.x, point.y);

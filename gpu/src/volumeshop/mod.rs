@@ -17,7 +17,7 @@ use drypoint_scene::shot::{
 const LIGHTING: u32 = 24;
 
 /// Rays among objects.
-pub(crate) const CAST_AMONG: Module = module!("cast_among");
+pub(crate) const CAST_AMONG: [Module; 2] = [module!("spans"), module!("cast_among")];
 
 /// Adds the lighting function of samples. An iso-surface has a look of its own, and none is lit by one.
 pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {

@@ -18,10 +18,20 @@ pub(crate) struct DrawnPart {
     pub(crate) part: usize,
     /// Whether it is taken from the picture's volume, and drawn there.
     pub(crate) takes: bool,
+    /// Whether its samples seed halos.
+    pub(crate) seeds: bool,
     /// Whether it is a ghost.
     pub(crate) is_ghost: bool,
     /// The powers of two of its numbers.
     pub(crate) scales: Scales,
+}
+
+impl DrawnPart {
+    /// An expression for the membership of its selection set (eqs. 1, 2).
+    fn weight(&self) -> String {
+        let part = self.part;
+        if self.takes { format!("taken_{part} * share") } else { format!("part_membership_{part}(k)") }
+    }
 }
 
 /// The end of a part's names.
@@ -54,9 +64,16 @@ pub(crate) fn add(
     if cutaways.iter().any(|cutaway| cutaway.funnel > 0.0) {
         funnel::add(shader, shot, precision);
     }
+    let halos = shot.halos.list.len();
+    if halos == 0 {
+        shader.add(&[module!("note_sample")]);
+    }
     let mut text = rays(parts, &cutaways);
     text += &ghosts(cutaways.len());
     text += &together(shader, combination, pictures, parts, scales);
+    if halos > 0 {
+        text += &seeds_together(halos, parts);
+    }
     shader.stages.objects = Some(text);
 }
 
@@ -83,7 +100,7 @@ fn rays(parts: &[DrawnPart], cutaways: &[&Cutaway]) -> String {
     }
     for (i, cutaway) in cutaways.iter().enumerate() {
         let _ = writeln!(variables, "var<private> cut_end_{i}: i32;");
-        let _ = writeln!(spans, "    span = span_within(span, k, vec2(NO_PLANE, cut_end_{i} - 1));");
+        let _ = writeln!(spans, "    span = span_within(span, k, vec2(NO_SAMPLE, cut_end_{i} - 1));");
         let plane = match cutaway.cut {
             Cut::Bounds => format!("far_side_{}()", cutaway.part),
             Cut::Object => format!("last_member_{}()", cutaway.part),
@@ -122,12 +139,13 @@ fn ghosts(cutaways: usize) -> String {
         let _ = writeln!(factors, "        if (k < cut_end_{i}) {{ {factor} }}");
         any.push(format!("k < cut_end_{i}"));
     }
+    let is_before = if cutaways > 0 { any.join(" || ") } else { "false".into() };
     if cutaways > 0 {
-        factors =
-            format!("    if ({}) {{\n        let e = enhancement(own_ray, a);\n{factors}    }}\n", any.join(" || "));
+        factors = format!("    if (is_before_cut(k)) {{\n        let e = enhancement(own_ray, a);\n{factors}    }}\n");
     }
     format!(
-        "\nfn is_ghosted_away(k: i32) -> bool {{\n{gone}    return false;\n}}\n\n\
+        "\nfn is_before_cut(k: i32) -> bool {{\n    return {is_before};\n}}\n\
+         \nfn is_ghosted_away(k: i32) -> bool {{\n{gone}    return false;\n}}\n\n\
          fn ghosted(k: i32, a: Attributes) -> real {{\n    var factor = real(1.0);\n{factors}    return factor;\n}}\n"
     )
 }
@@ -153,9 +171,9 @@ fn together(
     line(&mut text, "let share = share_of_each(taken);".into());
     line(&mut text, "let set_b = background_set(k, share_of_background(taken));".into());
     line(&mut text, "var mu_b = set_b.mu;".into());
-    for DrawnPart { part, takes, .. } in parts {
-        let weight = if *takes { format!("taken_{part} * share") } else { format!("part_membership_{part}(k)") };
-        line(&mut text, format!("let set_{part} = part_set_{part}(k, {weight});"));
+    for drawn in parts {
+        let part = drawn.part;
+        line(&mut text, format!("let set_{part} = part_set_{part}(k, {});", drawn.weight()));
         line(&mut text, format!("var mu_{part} = set_{part}.mu;"));
     }
     // Eqs. 6 and 7: intersections, taken out of the sets that meet.
@@ -184,6 +202,29 @@ fn together(
         }
     }
     text + "    return seen;\n}\n"
+}
+
+/// The seeds of so many halos at a sample, of all sets together ([VS-2]).
+fn seeds_together(halos: usize, parts: &[DrawnPart]) -> String {
+    let mut lines = String::from("    var taken = real(0.0);\n");
+    for DrawnPart { part, .. } in parts.iter().filter(|drawn| drawn.takes) {
+        let _ = writeln!(lines, "    let taken_{part} = part_takes_{part}(k);");
+        let _ = writeln!(lines, "    taken = taken_with(taken, taken_{part});");
+    }
+    lines += "    sow_background(k, share_of_background(taken));\n    let share = share_of_each(taken);\n";
+    for drawn in parts.iter().filter(|drawn| drawn.seeds) {
+        let part = drawn.part;
+        let _ = match drawn.takes {
+            true => writeln!(lines, "    sow_part_{part}(k, {});", drawn.weight()),
+            false => writeln!(lines, "    sow_beside_{part}(k);"),
+        };
+    }
+    format!(
+        "\n// s of each halo, of one set and of all.\n\
+         var<private> seeds_of_set: array<real, {halos}>;\n\
+         var<private> seeds_together: array<real, {halos}>;\n\n\
+         fn sow_objects(k: i32) {{\n{lines}}}\n"
+    )
 }
 
 /// Lines that find the sets of intersections, and which of these there are.

@@ -19,16 +19,18 @@ pub(crate) const NAMES: &[&str] = &[
     "seen_part",
     "far_side",
     "last_member",
+    "sow_part",
+    "sow_beside",
 ];
 
 /// Adds a part to the shader of its look. `is_of_volume` says whether its samples are those of the picture's volume, `takes`
-/// whether the selection is taken from it, `has_last_member` whether a cutaway asks for it.
+/// whether the selection is taken from it, `has_last_member` whether a cutaway asks for it, and `seeds` whether halos do.
 pub(crate) fn add(
     shader: &mut Shader,
     selection: &SelectionParams,
     is_of_volume: bool,
     takes: bool,
-    has_last_member: bool,
+    (has_last_member, seeds): (bool, bool),
     [own, main]: [&Scales; 2],
 ) {
     shader.stages.objects = Some(String::new());
@@ -43,6 +45,9 @@ pub(crate) fn add(
     }
     if has_last_member {
         shader.add(&[module!("last_member")]);
+    }
+    if seeds {
+        shader.add(&[module!("part_seeds")]);
     }
     shader.constant("BY_VALUE", Constant::Bool(matches!(selection.membership, Membership::Value(_))));
     // Its numbers in those of the picture's volume.

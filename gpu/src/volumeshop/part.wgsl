@@ -11,7 +11,7 @@ var<private> part_can_show: bool;
 fn aim_part(x: real, y: real) {
     aim_selection(x, y);
     part_ray = ray_through(x, y);
-    part_k = NO_PLANE;
+    part_k = NO_SAMPLE;
     begin_ray(part_ray);
     let left = samples_left(part_ray, samples_inside(part_ray));
     part_range = vec2(max(left.x, selection_range.x), min(left.y, selection_range.y));
@@ -21,11 +21,18 @@ fn is_in_part(k: i32) -> bool {
     return part_range.x <= k && k <= part_range.y;
 }
 
+fn place_part(k: i32) {
+    part_sample.k = k;
+    part_sample.position = position(part_ray, k);
+    part_sample.at = locate(part_sample.position);
+}
+
 // Looks up sample k once, which lies in the range.
 fn look_at_part(k: i32) -> bool {
     if (part_k != k) {
         part_k = k;
-        part_can_show = look_up_part(k);
+        place_part(k);
+        part_can_show = next_plane(part_ray, part_sample) <= k && take_value(k);
     }
     return part_can_show;
 }

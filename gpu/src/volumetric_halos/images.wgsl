@@ -39,12 +39,17 @@ fn group_ends(k: i32, every: i32) -> bool {
     return (((k + 1) % every) + every) % every == 0;
 }
 
-// The point of the picture that a ray of the images goes through. Rays of the guard band lie before 0 or beyond the last.
-fn image_point(at: vec2<i32>) -> vec2<real> {
+// The pixel that a ray of the images goes through, and the part of it. Rays of the guard band lie before 0 or beyond the last.
+fn image_pixel(at: vec2<i32>) -> vec3<i32> {
     let n = RAYS_ACROSS;
     // Whole numbers are divided where they are positive.
     let shifted = at - GUARD + GUARD * n;
-    let pixel = shifted / n - GUARD;
     let part = shifted % n;
-    return point_of(pixel, part.y * n + part.x, n);
+    return vec3(shifted / n - GUARD, part.y * n + part.x);
+}
+
+// The point of the picture that it goes through.
+fn image_point(at: vec2<i32>) -> vec2<real> {
+    let pixel = image_pixel(at);
+    return point_of(pixel.xy, pixel.z, RAYS_ACROSS);
 }

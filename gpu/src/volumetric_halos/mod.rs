@@ -7,6 +7,7 @@ mod stages;
 
 use crate::field::Scales;
 use crate::number::{ELEMENTARY, NUMBER};
+use crate::place::Place;
 use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
 use crate::shader::{Constant, Data, Shader, module};
 use crate::{GpuError, Inputs, Precision, transfer};
@@ -39,12 +40,13 @@ impl Lists {
     }
 }
 
-/// Adds the halos of a shot, after everything that samples are asked for; `own` is the query of samples without halos.
+/// Adds the halos of a shot, after everything that samples are asked for; `own` is the query of samples without halos. A part
+/// of a picture has seeds alone.
 pub(crate) fn add(
     shader: &mut Shader,
-    shot: &Shot,
+    (shot, is_part): (&Shot, bool),
     own: SampleQuery,
-    inputs: &Inputs<'_>,
+    (inputs, place): (&Inputs<'_>, &Place),
     scales: &Scales,
     precision: Precision,
 ) -> Result<(), GpuError> {
@@ -53,65 +55,13 @@ pub(crate) fn add(
     let mut lists = Lists::default();
     let mut numbers = Vec::new();
     for halo in list {
-        numbers.extend(parameters(halo, list.len(), &mut lists, inputs, scales));
+        numbers.extend(parameters(halo, list.len(), &mut lists, place, scales));
     }
-    // The taps of all passes.
-    let size = planes::image_size(shot);
-    let first_taps = lists.numbers.len();
-    let most_passes = planes::most_passes(list);
-    for halo in list {
-        for exponent in 0..most_passes.max(1) {
-            lists.numbers.extend(planes::taps(halo, exponent, size));
-        }
+    shader.add(&[NUMBER, ELEMENTARY, module!("halos"), module!("seeds"), module!("seed_value")]);
+    shader.constant("HALOS", Constant::Int(list.len() as i64));
+    if !is_part {
+        add_images(shader, shot, &mut lists);
     }
-    let alike =
-        |a: &HaloParams, b: &HaloParams| a.spread.passes == b.spread.passes && a.spread.stretch == b.spread.stretch;
-    shader.add(&[
-        NUMBER,
-        ELEMENTARY,
-        module!("halos"),
-        module!("images"),
-        module!("tiles"),
-        module!("profile"),
-        module!("tint"),
-        module!("glow"),
-    ]);
-    shader.add(&[
-        module!("rays"),
-        module!("seeds"),
-        module!("planes"),
-        module!("measure_once"),
-        module!("seed_value"),
-        module!("spreading"),
-    ]);
-    for (name, value) in [
-        ("HALOS", list.len()),
-        ("HALO_VECTORS", list.len().div_ceil(4)),
-        ("RAYS_X", size.rays[0]),
-        ("RAYS_Y", size.rays[1]),
-        ("IMAGE_X", size.image[0]),
-        ("IMAGE_Y", size.image[1]),
-        ("GUARD", size.guard),
-        ("TILE", size.tile),
-        ("TILES_X", size.tiles[0]),
-        ("TILES_Y", size.tiles[1]),
-        ("TILE_REACH", size.tile_reach),
-        ("FIRST_TAPS", first_taps),
-        ("MOST_PASSES", most_passes.max(1) as usize),
-    ] {
-        shader.constant(name, Constant::Int(value as i64));
-    }
-    let emits = list.iter().any(|halo| halo.kind == HaloKind::Emissive);
-    shader.constant("EMISSIVE", Constant::Bool(emits));
-    shader.constant(
-        "TAPS_ALIKE",
-        Constant::Bool(list.chunks(4).all(|four| four.iter().all(|halo| alike(halo, &four[0])))),
-    );
-    shader.add(&[match list.iter().any(|halo| halo.spread.median) {
-        true => module!("median"),
-        false => module!("plain_seeds"),
-    }]);
-    shader.add(&[module!("gradient_image")]);
     // The seeds of a sample.
     let any = |is: fn(&HaloParams) -> bool| list.iter().any(is);
     let mut height = vec!["by_value"];
@@ -122,7 +72,7 @@ pub(crate) fn add(
         height.push("by_label");
     }
     if any(|halo| halo.seed.focus.is_some()) {
-        let axes = inputs.volume.grid().axes();
+        let axes = place.grid.axes();
         for (name, axis) in [("halo_axis_x", axes.x_axis), ("halo_axis_y", axes.y_axis), ("halo_axis_z", axes.z_axis)] {
             shader.block.vector(name, axis);
         }
@@ -149,21 +99,67 @@ pub(crate) fn add(
         add_bricks(shader, list, object, bricks, rounding(scales, precision));
         next.push("skip_seed_brick");
     }
-    shader.add(&[match ends_rays(shot) {
-        true => module!("end_at_surface"),
-        false => module!("no_end"),
-    }]);
+    if measures_once(shot, is_part) {
+        shader.add(&[module!("measure_once")]);
+    }
     shader.bind(30, "the halos", Data::Reals(numbers));
     shader.bind(31, "the numbers of halos", Data::Reals(lists.numbers));
     if shader.stages.collect.contains(&"collect_layers") {
         shader.add(&[module!("sums_go_on")]);
     }
-    add_stages(shader, shot, own, reads_opacity && is_over_two, height, next);
+    add_stages(shader, (shot, is_part), own, reads_opacity && is_over_two, height, next);
     Ok(())
 }
 
+/// Adds the images that halos spread in, and the rays that visit planes.
+fn add_images(shader: &mut Shader, shot: &Shot, lists: &mut Lists) {
+    let list = &shot.halos.list;
+    // The taps of all passes.
+    let size = planes::image_size(shot);
+    let first_taps = lists.numbers.len();
+    let most_passes = planes::most_passes(list);
+    for halo in list {
+        for exponent in 0..most_passes.max(1) {
+            lists.numbers.extend(planes::taps(halo, exponent, size));
+        }
+    }
+    let alike =
+        |a: &HaloParams, b: &HaloParams| a.spread.passes == b.spread.passes && a.spread.stretch == b.spread.stretch;
+    shader.add(&[module!("images"), module!("tiles"), module!("profile"), module!("tint"), module!("glow")]);
+    shader.add(&[module!("rays"), module!("seed_rays"), module!("planes"), module!("spreading")]);
+    shader.add(&[if shot.combination.is_some() { module!("among") } else { module!("alone") }]);
+    shader.add(&[if ends_rays(shot) { module!("end_at_surface") } else { module!("no_end") }]);
+    for (name, value) in [
+        ("HALO_VECTORS", list.len().div_ceil(4)),
+        ("RAYS_X", size.rays[0]),
+        ("RAYS_Y", size.rays[1]),
+        ("IMAGE_X", size.image[0]),
+        ("IMAGE_Y", size.image[1]),
+        ("GUARD", size.guard),
+        ("TILE", size.tile),
+        ("TILES_X", size.tiles[0]),
+        ("TILES_Y", size.tiles[1]),
+        ("TILE_REACH", size.tile_reach),
+        ("FIRST_TAPS", first_taps),
+        ("MOST_PASSES", most_passes.max(1) as usize),
+    ] {
+        shader.constant(name, Constant::Int(value as i64));
+    }
+    let emits = list.iter().any(|halo| halo.kind == HaloKind::Emissive);
+    shader.constant("EMISSIVE", Constant::Bool(emits));
+    shader.constant(
+        "TAPS_ALIKE",
+        Constant::Bool(list.chunks(4).all(|four| four.iter().all(|halo| alike(halo, &four[0])))),
+    );
+    shader.add(&[match list.iter().any(|halo| halo.spread.median) {
+        true => module!("median"),
+        false => module!("plain_seeds"),
+    }]);
+    shader.add(&[module!("gradient_image")]);
+}
+
 /// The parameters of a halo, in the order of the shader's struct.
-fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Inputs<'_>, scales: &Scales) -> Vec<f64> {
+fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, place: &Place, scales: &Scales) -> Vec<f64> {
     let (seed, spread) = (&halo.seed, &halo.spread);
     let flag = |is: bool| f64::from(u8::from(is));
     let mut parameters = vec![
@@ -189,7 +185,7 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Input
     parameters.push(seed.labels.as_ref().map_or(-1.0, |labels| labels.len() as f64));
     lists.labels.extend(seed.labels.iter().flatten());
     // h_p, from voxel (0, 0, 0).
-    let origin = inputs.volume.grid().origin();
+    let origin = place.grid.origin();
     let points: Vec<f64> =
         seed.focus.iter().flat_map(|focus| &focus.at).flat_map(|p: &DVec3| (*p - origin).to_array()).collect();
     let count = (points.len() / 3) as f64;
@@ -230,6 +226,11 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, inputs: &Input
     parameters
 }
 
+/// Whether a sample that is composited and seeds keeps its gradient: among objects several sets are measured in turn.
+fn measures_once(shot: &Shot, is_part: bool) -> bool {
+    shot.combination.is_none() && !is_part
+}
+
 /// Adds the skipping of bricks in which no value seeds.
 fn add_bricks(shader: &mut Shader, list: &[HaloParams], object: &Object, bricks: &Bricks, slack: f64) {
     let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
@@ -252,7 +253,7 @@ fn add_bricks(shader: &mut Shader, list: &[HaloParams], object: &Object, bricks:
 /// Adds the functions that rays and seeds call at each step: of those that the shader has, what halos ask for.
 fn add_stages(
     shader: &mut Shader,
-    shot: &Shot,
+    (shot, is_part): (&Shot, bool),
     own: SampleQuery,
     asks_first: bool,
     height: Vec<&'static str>,
@@ -289,7 +290,7 @@ fn add_stages(
     }
     let watched = |layer: &LayerKind| if let LayerKind::Halo(halo) = layer { Some(*halo) } else { None };
     for stage in stages.measured_first.iter_mut().chain(&mut stages.measured).chain(&mut measured) {
-        if *stage == "measure_gradient" {
+        if *stage == "measure_gradient" && measures_once(shot, is_part) {
             *stage = "measure_gradient_once";
         }
     }

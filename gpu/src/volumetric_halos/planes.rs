@@ -3,6 +3,7 @@
 use crate::buffers::{buffer, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::shader::Shader;
+use crate::volumeshop::funnel::MAPS;
 use crate::{Gpu, GpuError, Precision, ray};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::TriangleMesh;
@@ -96,11 +97,11 @@ fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last
     groups
 }
 
-/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or a mesh, of which the corners of a
-/// box are given.
-fn reached(shot: &Shot, grid: &Grid, of_meshes: &[DVec3]) -> [i64; 2] {
+/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or something else, of which the
+/// corners of boxes are given.
+fn reached(shot: &Shot, grid: &Grid, others: &[DVec3]) -> [i64; 2] {
     let Shot { view, lattice, .. } = shot;
-    let corners = grid.world_corners().into_iter().chain(of_meshes.iter().copied());
+    let corners = grid.world_corners().into_iter().chain(others.iter().copied());
     let corners: Vec<DVec3> = corners.map(|corner| view.to_eye(corner)).collect();
     let [near, far] = [f64::min, f64::max].map(|end| corners.iter().map(|p| -p.z).reduce(end).unwrap_or(0.0));
     let plane = |depth: f64| (depth / lattice.step).floor() as i64;
@@ -108,7 +109,7 @@ fn reached(shot: &Shot, grid: &Grid, of_meshes: &[DVec3]) -> [i64; 2] {
 }
 
 /// The corners of the box about a mesh.
-fn corners(mesh: &TriangleMesh) -> [DVec3; 8] {
+pub(crate) fn corners(mesh: &TriangleMesh) -> [DVec3; 8] {
     let all = || mesh.positions().iter().copied();
     let ends = [all().reduce(DVec3::min), all().reduce(DVec3::max)].map(Option::unwrap_or_default);
     std::array::from_fn(|i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
@@ -126,8 +127,8 @@ pub(crate) struct HaloPlanes {
     watched: Vec<bool>,
     groups: Vec<PlaneGroup>,
     anchor: i64,
-    /// Corners of boxes about the meshes.
-    mesh_corners: Vec<DVec3>,
+    /// Corners of boxes about meshes and the data of objects.
+    other_corners: Vec<DVec3>,
     start: wgpu::ComputePipeline,
     visit: wgpu::ComputePipeline,
     tiles: wgpu::ComputePipeline,
@@ -158,11 +159,13 @@ struct Images {
 }
 
 impl HaloPlanes {
-    /// Makes the images and the passes of a shot; `text` is the whole shader, of so many channels.
+    /// Makes the images and the passes of a shot; `text` is the whole shader, and `others` are corners of boxes about all that
+    /// can be seen beside the volume on `grid`.
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
-        (grid, meshes): (&Grid, &[TriangleMesh]),
+        (grid, others): (&Grid, Vec<DVec3>),
+        has_funnels: bool,
         (shader, text): (&Shader, &str),
         data_layout: &wgpu::BindGroupLayout,
         precision: Precision,
@@ -191,7 +194,9 @@ impl HaloPlanes {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries };
             gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))
         };
-        let params_layout = layout("parameters", &[list_entry(0, true), list_entry(1, false)])?;
+        let mut of_picture = vec![list_entry(0, true), list_entry(1, false)];
+        of_picture.extend(has_funnels.then(|| list_entry(MAPS, true)));
+        let params_layout = layout("parameters", &of_picture)?;
         let group = wgpu::BindGroupLayoutEntry {
             ty: wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Storage { read_only: true },
@@ -220,7 +225,7 @@ impl HaloPlanes {
             watched,
             groups: Vec::new(),
             anchor: 0,
-            mesh_corners: meshes.iter().flat_map(corners).collect(),
+            other_corners: others,
             start: pass("halo_start", false)?,
             visit: pass("halo_planes", false)?,
             tiles: pass("halo_tiles", false)?,
@@ -241,12 +246,12 @@ impl HaloPlanes {
 
     /// Takes the camera of another shot.
     pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
-        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.mesh_corners));
+        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.other_corners));
         self.anchor = ray::anchor(shot, grid) as i64;
     }
 
-    /// Draws a frame.
-    pub(crate) fn draw(&self, canvas: &Canvas<'_>) -> Result<(), GpuError> {
+    /// Draws a frame; `maps` are those of funnels.
+    pub(crate) fn draw(&self, canvas: &Canvas<'_>, maps: Option<&wgpu::Buffer>) -> Result<(), GpuError> {
         let gpu = canvas.gpu;
         let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
         let (records, firsts) = self.records(stride);
@@ -255,7 +260,8 @@ impl HaloPlanes {
         let flags = vec![0; 4 * (4 * tiles + self.groups.len())];
         let flags = buffer(gpu, "the list of tiles", &flags, wgpu::BufferUsages::STORAGE)?;
         let [params, state] = gpu.attempt("the halos", || {
-            let params_entries = [entry(0, canvas.params), entry(1, &canvas.picture.out)];
+            let mut params_entries = vec![entry(0, canvas.params), entry(1, &canvas.picture.out)];
+            params_entries.extend(maps.map(|maps| entry(MAPS, maps)));
             let planes =
                 wgpu::BufferBinding { buffer: &group_list, offset: 0, size: wgpu::BufferSize::new(GROUP_BYTES) };
             let planes = wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(planes) };

@@ -26,14 +26,15 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let point = image_point(at);
     let ray = ray_through(point.x, point.y);
+    aim_image(at);
     resume_seed(place, ray);
     if (visits) {
         resume_ray(own.number, ray);
     }
+    aim_again(ray);
     if (own.glows) {
         own.glow = glow_at(place, ray.step / params.reference_length);
     }
-    forget_sample();
     for (var k = plane_group.first; k <= plane_group.last; k++) {
         if (!own.glows) {
             // Samples before it show and seed nothing.
@@ -53,17 +54,15 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
             sample.position = position(ray, k);
             sample.at = locate(sample.position);
             // The planes up to these show and seed nothing.
-            let after = select(k, next_plane(ray, sample), has_step);
-            let after_seed = select(k, next_seed_plane(ray, sample), k == next_seed);
+            let after = select(k, next_shown(ray, sample, own.last), has_step);
+            let after_seed = select(k, next_sown(ray, sample, last_seed), k == next_seed);
             let shows = has_step && k <= own.last && after == k;
             let sows = k == next_seed && after_seed == k;
             if (shows || sows) {
-                sample.s = value_at(sample.at);
-                sample.place = node_place(locate_value(sample.s));
+                sample = looked_up(sample);
             }
             if (shows) {
-                visited(sample);
-                own.front = composite_sample(ray, sample, own.tint, own.front);
+                own.front = show_sample(ray, sample, own.tint, own.front);
             }
             if (has_step && k <= own.last) {
                 own.next = select(after, k + 1, after == k);
@@ -72,7 +71,7 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
                 }
             }
             if (sows) {
-                sow(ray, sample, place);
+                sow_sample(ray, sample, place);
             }
             if (k == next_seed) {
                 next_seed = select(after_seed, k + 1, after_seed == k);

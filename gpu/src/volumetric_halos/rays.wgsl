@@ -40,7 +40,7 @@ fn set_open(at: vec2<i32>) {
 // Starts a ray of the picture before all planes.
 fn start_ray(number: i32, ray: Ray) {
     begin_ray(ray);
-    let run = samples_left(ray, samples_inside(ray));
+    let run = samples_that_show(ray);
     keep_front(number, Front());
     ray_numbers[ray_place(RAY_NEXT, number)] = real(select(end_plane(), run.x, run.x <= run.y));
     ray_numbers[ray_place(RAY_LAST, number)] = real(run.y);

@@ -44,6 +44,21 @@ fn faults_of_objects_are_noticed() {
                 ("for (var k = part_range_0.y; k", "for (var k = part_range_0.y - 4; k"),
             ],
         ),
+        (
+            shells(
+                &(files.soft("move = [2, 3, 1]\nghosting = 0.6\nfunnel = \"2 px\"")
+                    + &files.own("move = [3, 0, 0]")
+                    + "[[halo]]\nseed.focus = { at = [[16, 10, 12]], inner = 4, falloff = 12 }\n"),
+            ),
+            vec![
+                ("min(weight, seeds_of_set[halo] * factor)", "seeds_of_set[halo] * factor"),
+                ("join_seeds(weight, factor);", "join_seeds(weight, 1.0);"),
+                ("seeds_of_set[halo] = 0.0;", ""),
+                ("    sow_part_1(k, taken_1 * share);\n", ""),
+                ("sow_beside_0(k)", "sow_beside_2(k)"),
+                ("clamp(pixel + FUNNEL_MARGIN, vec2(0)", "clamp(pixel, vec2(0)"),
+            ],
+        ),
     ];
     let mut unseen = Vec::new();
     for (scene, faults) in scenes {

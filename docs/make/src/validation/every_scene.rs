@@ -90,7 +90,7 @@ fn outcome(file: &Path, gpu: &Gpu) -> Option<Outcome> {
         return Some(Outcome::MarksAlone);
     }
     Some(match validate(&job, gpu) {
-        Ok(found) if found.fails() => Outcome::Fails(found),
+        Ok(found) if found.is_wrong() => Outcome::Fails(found),
         Ok(found) => Outcome::Same(found),
         Err(failure) => Outcome::Refused(failure.what),
     })

@@ -123,7 +123,7 @@ Everything else is as with `--backend gpu`. No bound of a pixel is derived for i
 
 ## Not drawn by graphics cards yet
 
-Halos beside objects, and lines inside a volume with halos. A scene that asks for them is refused, with the key that asks; the CPU draws it.
+Lines inside a volume with halos. A scene that asks for them is refused, with the key that asks; the CPU draws it.
 A layer of counts has the samples that the card evaluates, and they differ from the CPU's: f32 ends rays elsewhere, and other bricks are skipped. A sample that lines split counts once.
 Bounds are known for colours over a transfer function that is not read from a table, without rays at edges, halos, objects, meshes or lines inside the volume; iso-surfaces have bounds with the trilinear kernel and no clip plane, further volumes on the grid of the data.
 ";

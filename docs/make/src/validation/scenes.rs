@@ -31,11 +31,14 @@ pub(super) const SCENES: &[(&str, &str)] = &[
     ("a selection, moved", MOVED),
     ("an intersection with the ghost", MEETING),
     ("a ghosted background, in a funnel", GHOSTED),
+    ("a halo of a selection and its ghost", HALOS_OF_PARTS),
 ];
 
 /// Half of the torus moved out of it.
 const MOVED: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[120, 0], [134, 1]]\nmove = [9, -12, 6]\n\
     rotate = { axis = [1, 2, 0], angle = 40 }\n";
+const HALOS_OF_PARTS: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[120, 0], [134, 1]]\n\
+    move = [9, -12, 6]\n[[halo]]\nevery = 4\n[[halo]]\nobject = \"half\"\nkind = \"emissive\"\nevery = 4\n";
 const MEETING: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[110, 0], [134, 0.8]]\nmove = [3, -2, 2]\n\
     [[intersection]]\nobject = \"half\"\nwith = \"ghost\"\ncolor = \"#ff4010\"\n";
 const GHOSTED: &str = "[shading]\nmodel = \"lighting-function\"\n[[object]]\nname = \"half\"\n\
