@@ -182,10 +182,31 @@ mod tests {
             let told = faults(&rest);
             assert!(told.contains(key) && told.contains(what), "{rest}\n{told}");
         }
+        let dab = |keys: &str| {
+            object("") + &format!("[[intersection]]\nobject = \"tumour\"\ndabs = [{{ color = \"red\", {keys} }}]\n")
+        };
+        let (width, widths) = ("intersection[0].dabs[0].width", "write a number above 0, or two of them");
+        for (keys, key, what, remedy) in [
+            ("at = [1, 2], width = 0", width, "cannot be 0", widths),
+            ("at = [1, 2], width = -3", width, "cannot be -3", widths),
+            ("at = [1, 2], width = nan", width, "cannot be NaN", widths),
+            ("at = [1, 2], width = [1, 0]", width, "cannot be [1, 0]", widths),
+            ("at = [1, 2], width = [1, 2, 3]", width, "cannot be [1, 2, 3]", widths),
+            ("at = [1, 2]", width, "is missing", widths),
+            ("at = 1, width = 3", "intersection[0].dabs[0].at", "cannot be 1", "write two values [v, w]"),
+            ("at = [1], width = 3", "intersection[0].dabs[0].at", "cannot be [1]", "write two values [v, w]"),
+            ("width = 3", "intersection[0].dabs[0].at", "is missing", "at = two values [v, w]"),
+        ] {
+            let told = faults(&dab(keys));
+            let remedy = if what == "is missing" { remedy.replace("write ", "") } else { remedy.into() };
+            assert!(told.starts_with(&format!("{key} {what}\n")) && told.contains(&remedy), "{keys}\n{told}");
+            assert!(told.contains(&format!("key {key}\n")) && told.lines().count() == 3, "{keys}\n{told}");
+        }
         let sound = object(
             "label = [1, 2]\nmove = [0, 0, 4]\n[object.styles]\nmine = \"mine.png\"\n[object.transfer]\nnodes = [{ at = 1, style = \"mine\", opacity = 1 }]",
         ) + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour\", \"tumour ghost\"]\n"
             + "[[intersection]]\nobject = \"tumour\"\nwith = \"background\"\ncolor = \"#ff000080\"\n"
+            + "dabs = [{ at = [80, 120], width = [10, 10], color = \"#ff8000c0\" }, { at = [-1, 0], width = 5, color = \"red\" }]\n"
             + "[[halo]]\n[[halo]]\nobject = \"background\"\n[[halo]]\nobject = \"tumour ghost\"\n";
         assert_eq!(faults(&sound), "");
     }
