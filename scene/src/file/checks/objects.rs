@@ -110,7 +110,11 @@ fn intersections(scene: &Scene, check: &mut Check) {
         return;
     }
     for (i, table) in scene.intersections.iter().enumerate() {
-        if scene.objects.iter().all(|object| object.name != table.object) {
+        if scene.objects.is_empty() {
+            let what = format!("an intersection is of the object {:?}, and the scene has no object", table.object);
+            let remedy = "add an [[object]], or remove the [[intersection]]".into();
+            check.fault_in(&format!("intersection[{i}].object"), Problem::Contradiction { what, remedy });
+        } else if scene.objects.iter().all(|object| object.name != table.object) {
             let known = scene.objects.iter().map(|object| object.name.clone()).collect();
             unknown(&format!("intersection[{i}].object"), "object", &table.object, known, check);
         }
@@ -166,7 +170,25 @@ mod tests {
                 "object[0].matrix",
                 "four rows",
             ),
-            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "has both"),
+            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "has both label and value\n"),
+            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "\n  keep label or value"),
+            (
+                object("selection = \"s.nrrd\"\nlabel = 3\nvalue = [[0, 1]]"),
+                "object[0].selection",
+                "\n  keep selection or label or value",
+            ),
+            (object("move = [0, nan, 0]"), "key object[0].move[1]", "object[0].move[1] cannot be NaN\n"),
+            (object("scale = [1, 1, inf]"), "key object[0].scale[2]", "\n  write a finite number"),
+            (
+                object("matrix = [[1, 0, 0, 0], [0, 1, 0, -inf], [0, 0, 1, 0], [0, 0, 0, 1]]"),
+                "key object[0].matrix[1][3]",
+                "object[0].matrix[1][3] cannot be -inf\n",
+            ),
+            (
+                "[[intersection]]\nobject = \"tumour\"\n".into(),
+                "intersection[0].object",
+                "and the scene has no object\n",
+            ),
             (object("value = [[3, 1], [2, 0]]"), "object[0].value[1]", "non-decreasing"),
             (object("[object.transfer]\nnodes = [{ at = 1, style = \"waxx\", opacity = 1 }]"), "style", "wax"),
             (object("") + "[[intersection]]\nobject = \"tumor\"\n", "intersection[0].object", "tumour"),
@@ -190,6 +212,12 @@ mod tests {
             ("at = [1, 2], width = 0", width, "cannot be 0", widths),
             ("at = [1, 2], width = -3", width, "cannot be -3", widths),
             ("at = [1, 2], width = nan", width, "cannot be NaN", widths),
+            (
+                "at = [1, 2], width = [1, nan]",
+                "intersection[0].dabs[0].width[1]",
+                "cannot be NaN",
+                "write a finite number",
+            ),
             ("at = [1, 2], width = [1, 0]", width, "cannot be [1, 0]", widths),
             ("at = [1, 2], width = [1, 2, 3]", width, "cannot be [1, 2, 3]", widths),
             ("at = [1, 2]", width, "is missing", widths),
