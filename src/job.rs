@@ -322,12 +322,19 @@ impl Job {
         self.function.as_deref()
     }
 
-    /// Returns the values of the nodes of the scene's function, where they are in another unit.
-    pub fn node_values(&self) -> Option<NodesPlan> {
+    /// Returns the values of the nodes of the scene's function and of its objects' functions, of those that are in another
+    /// unit.
+    pub fn node_values(&self) -> Vec<NodesPlan> {
+        let own = self.own_node_values("transfer.unit".into(), None);
+        own.into_iter().chain(self.objects.node_values(&self.scene)).collect()
+    }
+
+    /// Returns the values of the nodes of the job's own function, if they are in another unit. See [`NodesPlan`].
+    fn own_node_values(&self, key: String, within: Option<usize>) -> Option<NodesPlan> {
         let transfer = self.scene.transfer.as_ref()?;
         let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
         let values = node_values(transfer, range, &self.volume);
-        (!values.is_empty()).then(|| NodesPlan { unit: transfer.unit.name(), values })
+        (!values.is_empty()).then(|| NodesPlan { key, within, unit: transfer.unit.name(), values })
     }
 
     /// Returns the scene's camera in numbers.

@@ -60,7 +60,7 @@ impl Plan {
         asks.close();
         asks.needs.sort_by_key(|need| need.quantity);
         asks.passes.sort_by_key(|need| need.pass);
-        let (idle_keys, nodes, points, warnings) = (Vec::new(), None, None, Vec::new());
+        let (idle_keys, nodes, points, warnings) = (Vec::new(), Vec::new(), None, Vec::new());
         let mut plan = Self { needs: asks.needs, passes: asks.passes, idle_keys, nodes, points, warnings };
         let mut idle = Idle { scene, at: At::default(), keys: Vec::new() };
         for (at, rules) in rules(scene) {

@@ -7,7 +7,7 @@ use drypoint_output::read::read_intersection_picture;
 use drypoint_reference::ray::ObjectInputs;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::intersection_picture::IntersectionPicture;
-use drypoint_scene::plan::Plan;
+use drypoint_scene::plan::{NodesPlan, Plan};
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
@@ -113,6 +113,22 @@ impl Objects {
             |(table, facts): &(&ObjectTable, &SelectionFacts)| table.value.is_none() && facts.index_box.is_none();
         let empty = scene.objects.iter().zip(&self.facts).filter(is_empty);
         empty.map(|(object, _)| format!("the object {:?} selects nothing", object.name))
+    }
+
+    /// Returns the values of the nodes of functions that are not the picture's in its own data, each function once.
+    pub(super) fn node_values(&self, scene: &Scene) -> Vec<NodesPlan> {
+        let mut found = Vec::new();
+        for part in &self.parts {
+            let key = scene.key_of_part(part.object, part.role, "transfer.unit");
+            let has_function = key != "transfer.unit";
+            let within = (!has_function && scene.objects[part.object].volume.is_some()).then_some(part.object);
+            if has_function || within.is_some() {
+                found.extend(part.job.own_node_values(key, within));
+            }
+        }
+        // A ghost may share its selection's function.
+        found.dedup();
+        found
     }
 
     /// Adds the objects to the shot of a scene that differs from the job's in its knobs alone.

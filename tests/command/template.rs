@@ -108,6 +108,36 @@ fn the_plan_tells_the_values_of_nodes() {
     assert!(!plan.contains("transfer.unit ="), "{plan}");
 }
 
+/// Functions of objects and of ghosts, each once, and the picture's in the data of an object; each in its own range.
+#[test]
+fn the_plan_tells_the_values_of_nodes_of_objects() {
+    let folder = folder();
+    folder.good("-q phantom plane --size 16 --type u8 -o plane.nrrd");
+    let of = |table: &str, unit: &str, at: &str| {
+        format!("[object.{table}]\nkind = \"regular\"\nunit = \"{unit}\"\nnodes = [{{ at = {at}, color = \"red\" }}]\n")
+    };
+    let scene = TEMPLATE.to_owned()
+        + "[[object]]\nmove = [1, 0, 0]\n"
+        + &of("transfer", "normalized", "0.5")
+        + &of("ghost.transfer", "normalized", "0.25")
+        + "[[object]]\nmove = [2, 0, 0]\n"
+        + &of("transfer", "normalized", "0.75")
+        + "[[object]]\nvolume = \"plane.nrrd\"\nrange = [0, 100]\nmove = [3, 0, 0]\n"
+        + "[[object]]\nvolume = \"plane.nrrd\"\nrange = [0, 1000]\n"
+        + &of("transfer", "normalized", "0.125")
+        + "[[object]]\nmove = [4, 0, 0]\n"
+        + &of("transfer", "value", "7");
+    folder.write("objects.toml", scene);
+    let plan = folder.good("plan objects.toml plane.nrrd --set volume.range=[0,200]");
+    let told = "\ntransfer.unit = \"normalized\"\n  0.35 is 70\n  0.6 is 120\n\
+                \nobject[0].transfer.unit = \"normalized\"\n  0.5 is 100\n\
+                \nobject[0].ghost.transfer.unit = \"normalized\"\n  0.25 is 50\n\
+                \nobject[1].transfer.unit = \"normalized\"\n  0.75 is 150\n\
+                \ntransfer.unit = \"normalized\" in object[2].volume\n  0.35 is 35\n  0.6 is 60\n\
+                \nobject[3].transfer.unit = \"normalized\"\n  0.125 is 125\n";
+    assert!(plan.contains(told) && plan.matches("unit = ").count() == 6, "{plan}");
+}
+
 #[test]
 fn pairs_that_are_no_scene_and_volume() {
     let folder = folder();

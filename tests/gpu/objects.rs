@@ -135,6 +135,8 @@ fn intersections() {
     let mean = meet("background", "opacity = \"plus\"\nswap = true");
     let color = meet("ghost", "color = \"#ff4010c0\"\nopacity = \"over\"");
     let from_picture = meet("ghost", &format!("color = {}", quoted(&picture)));
+    let dabs = "dabs = [{ at = [110, 90], width = [30, 50], color = \"#20ff40c0\" }, \
+                { at = [140, 150], width = 40, color = \"#4020ff\" }]";
     // On a cut the background has the plane's normal, also where it meets something.
     let half = object("a", "value = [[0, 0.5], [255, 0.5]]\nmove = [2, 1, 0]");
     let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0.2, -1, 0.1]\nspace = \"index\"\napplies = [\"background\"]\n\
@@ -144,7 +146,11 @@ fn intersections() {
     compare(vec![
         ("a colour, and the mean", shells(&(near.clone() + &between + &color + &mean))),
         ("on a cut", shells(&(half + &mean + clip))),
-        ("a picture, by products, of styles", styled(&(PRODUCT.to_owned() + &near + &from_picture + &mean))),
+        ("dabs on a colour, and on the mean", shells(&(near.clone() + &color + dabs + "\n" + &mean + dabs))),
+        (
+            "a picture with dabs, by products, of styles",
+            styled(&(PRODUCT.to_owned() + &near + &from_picture + dabs + "\n" + &mean)),
+        ),
     ]);
 }
 

@@ -22,7 +22,7 @@ fn a_template_for_one_head_works_on_another() {
         assert_eq!(scene.transfer.as_ref().unwrap().unit, Unit::Percentile);
         let job = Job::load(scene).unwrap_or_else(|failure| panic!("{head}: {failure}"));
         assert_eq!(job.plan.idle_keys, [], "{head}: keys without effect");
-        skins.push(job.node_values().unwrap().values);
+        skins.push(job.node_values().remove(0).values);
         let picture = job.renderer().unwrap().frame(&|_| ()).0;
         let m = measure(&picture);
         // Skin alone: a box full of noise would cover half of the picture, an empty one nothing.

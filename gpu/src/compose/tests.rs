@@ -189,7 +189,11 @@ const CHOICES: &[Choice] = &[
                     "[object]",
                     "name = \"a\"\nvolume = \"b.nrrd\"\nscale = [1, 2, -1]\nghosting_of_ghost = 1\nfunnel = \"2 px\"",
                 ),
-                ("[intersection]", "object = \"a\"\nopacity = \"xor\"\ncolor = \"#ff0000\""),
+                (
+                    "[intersection]",
+                    "object = \"a\"\nopacity = \"xor\"\ncolor = \"#ff0000\"\n\
+                     dabs = [{ at = [1, 2], width = 3, color = \"red\" }]",
+                ),
             ],
         ],
     ),

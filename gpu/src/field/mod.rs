@@ -39,6 +39,11 @@ impl Scales {
         scale_by_power_of_two(value - self.base, -self.value)
     }
 
+    /// A difference of values as the shader has it.
+    pub(crate) fn difference(&self, difference: f64) -> f64 {
+        scale_by_power_of_two(difference, -self.value)
+    }
+
     /// The value that the shader has as `number`.
     pub(crate) fn to_value(self, number: f64) -> f64 {
         scale_by_power_of_two(number, self.value) + self.base

@@ -1,10 +1,11 @@
 // Pictures of intersection transfer functions ([VS-4]): colours over the value at p and that at T p.
 
-@group(1) @binding(25) var<storage, read> intersection_pixels: array<vec4<real>>;
+// Pixels of pictures, and dabs.
+@group(1) @binding(25) var<storage, read> intersection_tables: array<vec4<real>>;
 
 // Two neighbouring pixels of a row, mixed.
 fn intersection_row(at: i32, width: i32, w: real) -> vec4<real> {
-    return mix_texels(intersection_pixels[at], intersection_pixels[at + min(width - 1, 1)], w);
+    return mix_texels(intersection_tables[at], intersection_tables[at + min(width - 1, 1)], w);
 }
 
 // The colour and the opacity at shares of both ranges, in a picture whose pixels begin at `first`: bilinear between the

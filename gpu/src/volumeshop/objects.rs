@@ -3,12 +3,12 @@
 use super::funnel;
 use crate::Precision;
 use crate::field::Scales;
-use crate::number::{BILINEAR, NUMBER};
+use crate::number::{BILINEAR, ELEMENTARY, NUMBER};
 use crate::shader::{Data, Module, Shader, module};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::shot::{
-    Combination, Cut, Cutaway, Fuzzy, Intersection, IntersectionOpacity, IntersectionPaint, Lighting, Material, Shot,
-    Transparency,
+    Combination, Cut, Cutaway, Dab, Fuzzy, Intersection, IntersectionOpacity, IntersectionPaint, Lighting, Material,
+    Shot, Transparency,
 };
 use std::fmt::Write;
 
@@ -242,7 +242,7 @@ fn meetings(
 ) -> Meetings {
     let scales_of = |part: usize| parts.iter().find(|drawn| drawn.part == part).map(|drawn| drawn.scales);
     let (mut text, mut drawn, mut taken) = (String::new(), Vec::new(), Vec::new());
-    let mut pixels = Vec::new();
+    let mut tables = Vec::new();
     for (i, intersection) in combination.intersections.iter().enumerate() {
         let s = intersection.selection;
         let of_other = intersection.ghost.map_or(Some(*scales), scales_of);
@@ -252,7 +252,9 @@ fn meetings(
             taken.push(s);
         }
         let picture = pictures.get(i).copied().flatten();
-        let color = paint(shader, (i, intersection), picture, [&of_other, &of_selection], &mut pixels);
+        let scales = [&of_other, &of_selection];
+        let color = paint(shader, (i, intersection), picture, scales, &mut tables);
+        let color = under_dabs(color, intersection, scales, &mut tables);
         text += &meeting(i, intersection, &color);
         drawn.push(i);
     }
@@ -262,9 +264,9 @@ fn meetings(
     if !drawn.is_empty() {
         shader.add(&[module!("meeting")]);
     }
-    if !pixels.is_empty() {
-        shader.add(&[BILINEAR, module!("intersection_picture")]);
-        shader.bind(25, "the pictures of intersections", Data::Reals(pixels));
+    if !tables.is_empty() {
+        shader.add(&[BILINEAR, ELEMENTARY, module!("intersection_picture"), module!("dabs")]);
+        shader.bind(25, "the pictures and dabs of intersections", Data::Reals(tables));
     }
     Meetings { text, drawn }
 }
@@ -313,7 +315,7 @@ fn paint(
     (i, intersection): (usize, &Intersection),
     picture: Option<&IntersectionPicture>,
     scales: [&Scales; 2],
-    pixels: &mut Vec<f64>,
+    tables: &mut Vec<f64>,
 ) -> String {
     let block = &mut shader.block;
     match (&intersection.color, picture) {
@@ -326,16 +328,14 @@ fn paint(
         }
         (IntersectionPaint::Picture(ranges), Some(picture)) => {
             let mut shares = Vec::new();
-            let here = intersection.ghost.map_or("here.s".to_owned(), |ghost| format!("part_sample_{ghost}.s"));
-            let there = format!("part_sample_{}.s", intersection.selection);
-            for (axis, ((range, scales), value)) in ranges.iter().zip(scales).zip([here, there]).enumerate() {
+            for (axis, ((range, scales), value)) in ranges.iter().zip(scales).zip(values(intersection)).enumerate() {
                 let [low, high] = range.map(|end| scales.value(end));
                 block.number(format!("meeting_low_{axis}_{i}"), low);
                 block.number(format!("meeting_width_{axis}_{i}"), high - low);
                 shares.push(format!("({value} - params.meeting_low_{axis}_{i}) / params.meeting_width_{axis}_{i}"));
             }
-            let ([width, height], first) = (picture.size, pixels.len() / 4);
-            pixels.extend(picture.pixels.as_flattened());
+            let ([width, height], first) = (picture.size, tables.len() / 4);
+            tables.extend(picture.pixels.as_flattened());
             let at = format!("intersection_at({first}, {width}, {height}, {}, {})", shares[0], shares[1]);
             let alpha = if picture.has_opacity { format!("{at}.a") } else { "preset".into() };
             format!("Shaded({at}.rgb, {alpha})")
@@ -343,4 +343,27 @@ fn paint(
         // Where both are transparent there is no intersection.
         (IntersectionPaint::Mean | IntersectionPaint::Picture(_), _) => "mean_color(own, other, preset)".into(),
     }
+}
+
+/// Expressions for the value at p and that at T p.
+fn values(intersection: &Intersection) -> [String; 2] {
+    let here = intersection.ghost.map_or("here.s".to_owned(), |ghost| format!("part_sample_{ghost}.s"));
+    [here, format!("part_sample_{}.s", intersection.selection)]
+}
+
+/// An expression for a colour and opacity under the dabs of an intersection.
+fn under_dabs(color: String, intersection: &Intersection, scales: [&Scales; 2], tables: &mut Vec<f64>) -> String {
+    if intersection.dabs.is_empty() {
+        return color;
+    }
+    // f32 has room for every place, so that no quotient in the shader is 0/0 or ∞/∞.
+    let most = f64::from(f32::MAX);
+    let first = tables.len() / 4;
+    for Dab { at, width, color } in &intersection.dabs {
+        tables.extend([0, 1].map(|i| scales[i].value(at[i]).clamp(-most, most)));
+        tables.extend([0, 1].map(|i| scales[i].difference(width[i]).clamp(f64::from(f32::MIN_POSITIVE), most)));
+        tables.extend(color);
+    }
+    let [here, there] = values(intersection);
+    format!("painted_by_all({color}, {first}, {}, vec2<real>({here}, {there}))", intersection.dabs.len())
 }

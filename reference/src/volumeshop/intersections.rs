@@ -1,7 +1,8 @@
 //! Intersection transfer functions (eqs. 6 and 7; [VS-4]): the colour and opacity of places where two objects meet.
 
 use crate::number::Real;
-use drypoint_scene::shot::IntersectionOpacity;
+use drypoint_scene::math;
+use drypoint_scene::shot::{Dab, IntersectionOpacity};
 
 /// An unshaded colour and its opacity.
 pub type Unshaded<R> = ([R; 3], R);
@@ -28,10 +29,25 @@ pub fn mean<R: Real>((c_1, alpha_1): Unshaded<R>, (c_2, alpha_2): Unshaded<R>) -
     (sum > R::ZERO).then(|| std::array::from_fn(|i| (c_1[i] * alpha_1 + c_2[i] * alpha_2) / sum))
 }
 
+/// A function under a dab, at the value at p and the value at T p. With w = a·exp(−½(((v₀ − at₀)/width₀)² +
+/// ((v₁ − at₁)/width₁)²)), a and c_dab the dab's, this is *over* of Porter and Duff (1984):
+/// α' = w + α(1 − w), c' = (w·c_dab + α(1 − w)·c)/α'. Where α' is 0 nothing changes.
+pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [f64; 2]) -> Unshaded<R> {
+    let [u, v] = std::array::from_fn(|i| (values[i] - dab.at[i]) / dab.width[i]);
+    let [r, g, b, a] = dab.color;
+    let w = R::from_f64(a * math::exp(-0.5 * (u * u + v * v)));
+    let painted = w + alpha * (R::ONE - w);
+    // The share w/α' of the dab in the colour; α(1 − w)/α' is the rest of it. Both ends are exact.
+    let share = if painted > R::ZERO { w / painted } else { R::ZERO };
+    let of_dab = [r, g, b].map(R::from_f64);
+    (std::array::from_fn(|i| c[i] * (R::ONE - share) + of_dab[i] * share), painted)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use IntersectionOpacity::{Atop, In, Max, Out, Over, Plus, Xor};
+    use drypoint_scene::intersection_picture::IntersectionPicture;
     use proptest::prelude::*;
 
     const ALL: [IntersectionOpacity; 7] = [Max, Over, In, Out, Atop, Xor, Plus];
@@ -43,6 +59,88 @@ mod tests {
         assert_eq!(ALL.map(|preset| opacity(preset, 1.0, 1.0)), [1.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0]);
         assert_eq!(mean(([1.0, 0.0, 0.5], 0.75), ([0.0, 1.0, 0.5], 0.25)), Some([0.75, 0.25, 0.5]));
         assert_eq!(mean(([1.0; 3], 0.0), ([0.5; 3], 0.0)), None);
+    }
+
+    /// An orange dab of opacity ¾ about (80, 120).
+    const ORANGE: Dab = Dab { at: [80.0, 120.0], width: [10.0, 20.0], color: [1.0, 0.25, 0.0, 0.75] };
+    const UNDER: Unshaded<f64> = ([0.0, 0.5, 1.0], 0.5);
+
+    fn near(found: Unshaded<f64>, expected: Unshaded<f64>) {
+        let off = (0..3).map(|i| (found.0[i] - expected.0[i]).abs()).fold((found.1 - expected.1).abs(), f64::max);
+        assert!(off < 1e-15, "{found:?}, not {expected:?}");
+    }
+
+    /// At the centre w = ¾: α' = ¾ + ⅛ = ⅞, and the dab has 6/7 of the colour. One width away along either value
+    /// w = ¾·e^(−½).
+    #[test]
+    fn a_dab_by_hand() {
+        near(painted(UNDER, &ORANGE, [80.0, 120.0]), ([6.0 / 7.0, 2.0 / 7.0, 1.0 / 7.0], 0.875));
+        let w = 0.75 * 0.606_530_659_712_633_4;
+        let alpha = w + 0.5 * (1.0 - w);
+        let (dab, under) = (w / alpha, 0.5 * (1.0 - w) / alpha);
+        let beside = ([dab, 0.25 * dab + 0.5 * under, under], alpha);
+        for values in [[90.0, 120.0], [70.0, 120.0], [80.0, 140.0], [80.0, 100.0]] {
+            near(painted(UNDER, &ORANGE, values), beside);
+        }
+        // Over a transparent function it is the dab: e⁻¹ along the diagonal.
+        near(painted(([0.0; 3], 0.0), &ORANGE, [90.0, 140.0]), ([1.0, 0.25, 0.0], 0.75 * 0.367_879_441_171_442_33));
+    }
+
+    /// A dab of opacity 0, and one too far away, leave every bit; an opaque one of endless width leaves none.
+    #[test]
+    fn ends_of_dabs_are_exact() {
+        let clear = Dab { color: [1.0, 0.25, 0.0, 0.0], ..ORANGE };
+        let point = Dab { width: [f64::MIN_POSITIVE; 2], ..ORANGE };
+        let opaque = Dab { width: [f64::MAX; 2], color: [1.0, 0.25, 0.0, 1.0], ..ORANGE };
+        for under in [UNDER, ([0.1, 0.7, 0.3], 0.3), ([0.1, 0.7, 0.3], 0.0), ([0.9, 0.1, 0.3], 1.0)] {
+            for values in [[80.0, 120.0], [3.0, -7.0], [1e9, 120.0]] {
+                assert_eq!(painted(under, &clear, values), under);
+                assert_eq!(painted(under, &opaque, values), ([1.0, 0.25, 0.0], 1.0));
+            }
+            assert_eq!(painted(under, &point, [80.0, 120.5]), under);
+            assert_eq!(painted(under, &ORANGE, [-f64::MAX, f64::MAX]), under);
+        }
+    }
+
+    /// Of two dabs at one place the last is on top: with w₁ = ½ and w₂ = ¼ over nothing α = ⅝; the second has ¼ of it, the
+    /// first ⅜.
+    #[test]
+    fn a_later_dab_lies_over_an_earlier() {
+        let dab = |color| Dab { color, ..ORANGE };
+        let (red, blue) = (dab([1.0, 0.0, 0.0, 0.5]), dab([0.0, 0.0, 1.0, 0.25]));
+        let both = |dabs: [Dab; 2]| dabs.iter().fold(([0.0; 3], 0.0), |under, dab| painted(under, dab, ORANGE.at));
+        near(both([red, blue]), ([0.6, 0.0, 0.4], 0.625));
+        near(both([blue, red]), ([0.8, 0.0, 0.2], 0.625));
+    }
+
+    /// A picture with the same dabs on it is the same function, but for bilinear interpolation: half the distance between
+    /// pixels is a quarter of the error.
+    #[test]
+    fn dabs_on_a_function_are_dabs_on_a_picture() {
+        let dabs = [ORANGE, Dab { at: [100.0, 90.0], width: [15.0, 30.0], color: [0.2, 0.9, 0.4, 0.6] }];
+        let function = |values| dabs.iter().fold(UNDER, |under, dab| painted(under, dab, values));
+        let error = |n: usize| {
+            let value = |share: f64| 200.0 * share;
+            let end = (n - 1) as f64;
+            let pixel = |i: usize| {
+                let ([r, g, b], a) = function([value((i % n) as f64 / end), value(1.0 - (i / n) as f64 / end)]);
+                [r, g, b, a]
+            };
+            let picture =
+                IntersectionPicture { size: [n; 2], pixels: (0..n * n).map(pixel).collect(), has_opacity: true };
+            let at = (0..97 * 97).map(|i| [(i % 97) as f64 / 96.0, (i / 97) as f64 / 96.0]);
+            let off = at.flat_map(|[x, y]| {
+                let ([r, g, b], a) = function([value(x), value(y)]);
+                let found = picture.at([x, y]);
+                [r - found[0], g - found[1], b - found[2], a - found[3]]
+            });
+            off.fold(0.0, |largest: f64, off| largest.max(off.abs()))
+        };
+        let errors = [81, 161, 321].map(error);
+        assert!(errors[0] < 0.02, "{errors:?}");
+        for pair in errors.windows(2) {
+            assert!((3.0..5.0).contains(&(pair[0] / pair[1])), "{errors:?}");
+        }
     }
 
     proptest! {

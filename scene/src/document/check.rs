@@ -139,8 +139,12 @@ impl Check {
         self.wrong_name(item, expected, None)
     }
 
-    /// Reports a value that may not stand where it stands, with the name that was probably meant.
+    /// Reports a value that may not stand where it stands, with the name that was probably meant. In a list the fault is
+    /// that of the first number that is not finite, if there is one.
     pub(crate) fn wrong_name<T>(&mut self, item: &Item, expected: String, nearest: Option<String>) -> Option<T> {
+        if let Some((i, number)) = item.list().into_iter().flatten().enumerate().find(|(_, item)| !item.is_finite()) {
+            return self.within_item(i, |check| check.wrong_name(number, "a finite number".into(), None));
+        }
         self.fault(&item.place, Problem::Value { found: item.found(), expected, nearest });
         None
     }
@@ -267,9 +271,12 @@ impl Check {
                 dropped.insert(instead.one);
             } else {
                 let key = self.key_of(instead.one);
+                // Others that exclude each other are alternatives, too; else they go together.
+                let is_one_of_all = table.instead.iter().any(|further| instead.others.contains(&further.one));
+                let rest = if is_one_of_all { others.join(" or ") } else { instead.others.join(" with ") };
                 let problem = Problem::Contradiction {
                     what: format!("{} has both {} and {}", table.title, instead.one, others.join(", ")),
-                    remedy: format!("keep {} or {}", instead.one, instead.others.join(" with ")),
+                    remedy: format!("keep {} or {rest}", instead.one),
                 };
                 self.fault_of(key, &one.name, problem);
             }

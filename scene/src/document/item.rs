@@ -83,6 +83,15 @@ impl Item {
         }
     }
 
+    /// Whether no number in the item is NaN or infinite.
+    pub(crate) fn is_finite(&self) -> bool {
+        match &self.value {
+            Value::Number(x) => x.is_finite(),
+            Value::List(items) => items.iter().all(Self::is_finite),
+            _ => true,
+        }
+    }
+
     /// The text that the item is.
     pub(crate) fn text(&self) -> Option<&str> {
         match &self.value {

@@ -92,8 +92,8 @@ pub struct Plan {
     pub passes: Vec<PassNeed>,
     /// Keys without effect.
     pub idle_keys: Vec<IdleKey>,
-    /// The values of nodes in another unit than values, where they have been found.
-    pub nodes: Option<NodesPlan>,
+    /// The values of nodes in another unit than values, for each function of which they have been found.
+    pub nodes: Vec<NodesPlan>,
     /// The points of stipples, where they have been counted.
     pub points: Option<PointsPlan>,
     /// Flaws that the picture may have.
@@ -103,6 +103,10 @@ pub struct Plan {
 /// The values that a transfer function's nodes have in a volume ([VS-11]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct NodesPlan {
+    /// The key of the nodes' unit, such as `transfer.unit` or `object[0].transfer.unit`.
+    pub key: String,
+    /// The object in whose own data the picture's function stands; none: the function is that of its data.
+    pub within: Option<usize>,
     /// The name of the nodes' unit.
     pub unit: &'static str,
     /// The places of nodes in that unit, each with its value.
@@ -260,9 +264,10 @@ impl fmt::Display for Plan {
             let [a, b, c, _] = width;
             writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;
         }
-        if let Some(NodesPlan { unit, values }) = &self.nodes {
+        for NodesPlan { key, within, unit, values } in &self.nodes {
             let lines = values.iter().map(|[at, value]| format!("  {at} is {value}"));
-            list(f, &format!("transfer.unit = {unit:?}"), lines)?;
+            let within = within.map(|object| format!(" in object[{object}].volume")).unwrap_or_default();
+            list(f, &format!("{key} = {unit:?}{within}"), lines)?;
         }
         if let Some(PointsPlan { voxels, each, bytes }) = self.points {
             let points = voxels.saturating_mul(each);

@@ -4,7 +4,7 @@ use super::{Clipping, Object, PartSeeds, Shot, ShotError, VolumeFacts};
 use crate::plan::Plan;
 use crate::space::Grid;
 use crate::tables::{
-    Cut, Fuzzy, IntersectionColor, IntersectionOpacity, IntersectionTable, ObjectTable, Opposite, Role, Scene,
+    Cut, Dab, Fuzzy, IntersectionColor, IntersectionOpacity, IntersectionTable, ObjectTable, Opposite, Role, Scene,
 };
 use crate::transfer::Function;
 use crate::view::View;
@@ -96,6 +96,8 @@ pub struct Intersection {
     pub opacity: IntersectionOpacity,
     /// Whether both opacities are exchanged.
     pub swap: bool,
+    /// Dabs over this colour and opacity, in their order.
+    pub dabs: Vec<Dab>,
 }
 
 /// The colour of an intersection.
@@ -203,6 +205,7 @@ impl Shot {
                 color,
                 opacity: table.opacity,
                 swap: table.swap,
+                dabs: table.dabs.clone(),
             })
         };
         let combination = Combination {

@@ -17,9 +17,9 @@ mod reconstruction;
 pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
-    Axis, Background, BlendSpace, Cut, Fuzzy, GradientEstimator, GradientRange, HaloAccumulation, HaloKind, HaloSource,
-    HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode, Role,
-    SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
+    Axis, Background, BlendSpace, Cut, Dab, Fuzzy, GradientEstimator, GradientRange, HaloAccumulation, HaloKind,
+    HaloSource, HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode,
+    Role, SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
 };
 pub use clipping::{Cap, Clipping};
 pub use combination::{

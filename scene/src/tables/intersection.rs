@@ -1,5 +1,6 @@
 //! `[[intersection]]`: the look of a place where a selection meets its ghost or the background ([VS-4]).
 
+use super::dab::{DABS, Dab};
 use crate::document::check::Check;
 use crate::document::declare::{choices, table};
 use crate::document::describe::{Kind, Shape, Table};
@@ -24,6 +25,10 @@ table! {
         opacity: IntersectionOpacity = IntersectionOpacity::Max, key("VS-4", IntersectionOpacity::KIND);
         /// Whether a and b are exchanged.
         swap: bool = false, key("VS-4", Flag);
+        /// Dabs of a Gaussian brush on the function of both values, in their order. Each lies over the colour and opacity, and
+        /// over earlier dabs.
+        dabs: Vec<Dab> = Vec::new(),
+            key("VS-4", DABS, |t| (!t.dabs.is_empty()).then(|| t.dabs.clone()), |t, v| t.dabs = v).absent("none");
     }
 }
 

@@ -8,6 +8,7 @@ pub mod camera;
 pub mod clip;
 pub mod combine;
 pub mod contours;
+mod dab;
 pub mod halo;
 mod halo_presets;
 pub mod hatching;
@@ -42,6 +43,7 @@ pub use camera::{Camera, Projection};
 pub use clip::{Clip, ClipSpace};
 pub use combine::{Combine, Fuzzy};
 pub use contours::{Contours, Kappa, SignFlip};
+pub use dab::Dab;
 pub use halo::{
     Exponents, FocusPoints, Halo, HaloAccumulation, HaloFocus, HaloKind, HaloSource, ProfileNode, SeedBy,
     SeedDirection, SeedValue, Seeding, Spreading,

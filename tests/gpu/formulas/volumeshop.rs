@@ -6,7 +6,7 @@ use drypoint::reference::volumeshop::fuzzy::{difference as minus, intersection, 
 use drypoint::reference::volumeshop::ghosting::{enhancement as spared, factor};
 use drypoint::reference::volumeshop::{ObjectSet, Shares, combined, intersections};
 use drypoint::scene::intersection_picture::IntersectionPicture;
-use drypoint::scene::shot::{Fuzzy, IntersectionOpacity};
+use drypoint::scene::shot::{Dab, Fuzzy, IntersectionOpacity};
 
 /// Half a last place of 1 in f32: the error of one operation.
 const U: f64 = 1.0 / (1u64 << 24) as f64;
@@ -162,4 +162,51 @@ fn pictures_of_intersections() {
         println!("{size:?}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
         assert!(found[0] <= 1e-15 && found[1] <= 32.0 * U, "{size:?}: {found:?}");
     }
+}
+
+/// Two dabs over colours and opacities of at least 2⁻⁶, at the centres, around them and far beyond.
+///
+/// With y the exponent, w has a relative error of 4y + 4 roundings. The share s = w/α' has s(1 − s) ≤ ¼ of this error, below
+/// 6 roundings as y < 5 where s is not small, and 6 more of its own and of the mixture. The second dab adds as many, and ¼ of
+/// the relative error of α below it: 32 in all.
+#[test]
+fn dabs_of_intersections() {
+    let Some(gpu) = gpu() else { return };
+    let dabs = [
+        Dab { at: [0.25, 0.75], width: [0.25, 0.5], color: [1.0, 0.25, 0.0, 0.75] },
+        Dab { at: [0.5, 0.5], width: [0.125, 0.0625], color: [0.0, 0.5, 1.0, 1.0] },
+    ];
+    // One number of another table comes first.
+    let mut numbers = vec![7.0; 4];
+    for Dab { at, width, color } in dabs {
+        numbers.extend(at.into_iter().chain(width).chain(color));
+    }
+    let mut table = memberships();
+    table.retain(|row| row[1] > 1.0 / 64.0);
+    for row in &mut table {
+        [row[2], row[3]] = [row[2], row[3]].map(|value| 2.0 * value - 0.5);
+    }
+    table.extend([[0.5, 0.5, 0.25, 0.75, 0.0, 0.0], [0.5, 0.5, 1e30, -1e30, 0.0, 0.0]]);
+    let kernel = Kernel {
+        modules: TYPES.to_owned()
+            + &modules(&[
+                "number/number",
+                "number/elementary",
+                "number/bilinear",
+                "volumeshop/intersection_picture",
+                "volumeshop/dabs",
+            ]),
+        lists: &[(25, &numbers)],
+        before: "let top = painted_by_all(Shaded(vec3<real>(x[0], x[4], x[5]), x[1]), 1, 2, vec2<real>(x[2], x[3]));",
+        results: &["top.rgb.x", "top.rgb.y", "top.rgb.z", "top.alpha"],
+        ..Kernel::default()
+    };
+    let truth = |&[r, alpha, v, w, g, b]: &[f64; 6]| {
+        let under = ([r, g, b], alpha);
+        let ([r, g, b], alpha) = dabs.iter().fold(under, |under, dab| intersections::painted(under, dab, [v, w]));
+        [r, g, b, alpha]
+    };
+    let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
+    println!("dabs: f64 {:.1e}, f32 {:.1e} of {:.1e}", found[0], found[1], 32.0 * U);
+    assert!(found[0] <= 1e-14 && found[1] <= 32.0 * U, "{found:?}");
 }

@@ -22,6 +22,7 @@ fn faults_of_objects_are_noticed() {
     let files = Files::new();
     let motion = "move = [2, -1, 1]\nrotate = { axis = [1, 2, 0.5], angle = 30 }\nscale = [0.9, 1.2, 0.8]\n";
     let meetings = "[[intersection]]\nobject = \"a\"\nwith = \"ghost\"\ncolor = \"#ff4010c0\"\n\
+                    dabs = [{ at = [110, 90], width = [30, 50], color = \"#20ff40c0\" }]\n\
                     [[intersection]]\nobject = \"a\"\nwith = \"background\"\nopacity = \"over\"\nswap = true\n";
     let scenes = [
         (
@@ -33,6 +34,7 @@ fn faults_of_objects_are_noticed() {
                 ("moved_x_0() * g.x + moved_y_0() * g.y", "moved_x_0() * g.y + moved_y_0() * g.x"),
                 // Meetings.
                 ("let wins = set_0.mu >= set_1.mu;", "let wins = set_0.mu < set_1.mu;"),
+                ("vec2<real>(part_sample_1.s, part_sample_0.s)", "vec2<real>(part_sample_0.s, part_sample_1.s)"),
                 // Runs of samples.
                 ("return Span(min(span.end, range.x - 1), span.is_mixed);", "return Span(span.end, span.is_mixed);"),
             ],

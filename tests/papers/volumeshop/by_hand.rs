@@ -84,6 +84,45 @@ fn an_intersection_by_hand() {
     });
 }
 
+/// Dabs on a function about (100, 100), the value of both sets.
+#[test]
+fn dabs_by_hand() {
+    let row = |table: &str| picture(&format!("{LOOKS}[[intersection]]\nobject = \"block\"\n{table}"));
+    let (blue, in_blue) = ("color = \"blue\"\n", "color = \"blue\"\nopacity = \"in\"\n");
+    // One width away along one value w = e^(−½), over "in", ⅛.
+    let w = 0.606_530_659_712_633_4;
+    let expected = |w: f64| {
+        // α' = w + ⅛(1 − w), above ¼: S min(½, 1 − α'), G ¼. A white dab has the share w/α' of the intersection's colour.
+        let v = w + 0.125 * (1.0 - w);
+        let s = f64::min(0.5, 1.0 - v);
+        let sum = s + 0.25 + v;
+        ([(s + w) / sum, (0.25 + w) / sum, v / sum], v.max(s))
+    };
+    for at in ["[100, 110]", "[100, 90]", "[110, 100]"] {
+        let dab = format!("dabs = [{{ at = {at}, width = 10, color = \"#ffffff\" }}]\n");
+        near(straight(row(&format!("{in_blue}{dab}"))[12]), expected(w));
+    }
+    // Each value has a width of its own: here the distance is 5/10 and 6/20, the square 0.34.
+    let dab = "dabs = [{ at = [105, 94], width = [10, 20], color = \"#ffffff80\" }]\n";
+    let w = 128.0 / 255.0 * (-0.17f64).exp();
+    near(straight(row(&format!("{in_blue}{dab}"))[12]), expected(w));
+    // An opaque dab of endless width is the function, also where the colour leaves it transparent.
+    for color in [blue, in_blue, "", "color = \"#0000ff00\"\n"] {
+        let painted = row(&format!("{color}dabs = [{{ at = [0, 0], width = 1e300, color = \"yellow\" }}]\n"));
+        near(straight(painted[12]), ([1.0, 1.0, 0.0], 1.0));
+        // No dab makes an intersection where there is none.
+        let plain = row(color);
+        assert_eq!((painted[2], painted[19]), (plain[2], plain[19]));
+        // A dab of opacity 0 changes no bit.
+        let clear = row(&format!("{color}dabs = [{{ at = [100, 100], width = 5, color = \"#ff000000\" }}]\n"));
+        assert_eq!(clear, plain);
+    }
+    // The last dab is on top.
+    let both =
+        "dabs = [{ at = [0, 0], width = 1e300, color = \"red\" }, { at = [0, 0], width = 1e300, color = \"lime\" }]\n";
+    near(straight(row(both)[12]), ([0.0, 1.0, 0.0], 1.0));
+}
+
 /// A background that is left beside a soft selection: f = ¼ everywhere.
 #[test]
 fn a_soft_selection_and_the_background() {

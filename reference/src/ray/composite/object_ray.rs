@@ -293,17 +293,21 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let (a, b) = (of_selection.1, of_other.1);
         let [a, b] = if params.swap { [b, a] } else { [a, b] };
         let preset = intersections::opacity(params.opacity, a, b);
-        let (rgb, alpha) = match (&params.color, intersection.picture) {
-            (IntersectionPaint::Mean, _) => (intersections::mean(of_selection, of_other)?, preset),
+        let values = [other.sample.s.to_f64(), selection.sample.s.to_f64()];
+        let unpainted = match (&params.color, intersection.picture) {
+            (IntersectionPaint::Mean, _) => {
+                (intersections::mean(of_selection, of_other).unwrap_or([R::ZERO; 3]), preset)
+            }
             (IntersectionPaint::Color(rgb, opacity), _) => (rgb.map(R::from_f64), preset * R::from_f64(*opacity)),
             (IntersectionPaint::Picture(ranges), picture) => {
-                let values = [other.sample.s.to_f64(), selection.sample.s.to_f64()];
                 let share = |i: usize| (values[i] - ranges[i][0]) / (ranges[i][1] - ranges[i][0]);
                 let [r, g, b, opacity] = picture?.at([share(0), share(1)]);
                 let alpha = if picture?.has_opacity { R::from_f64(opacity) } else { preset };
                 ([r, g, b].map(R::from_f64), alpha)
             }
         };
+        let paint = |under, dab| intersections::painted(under, dab, values);
+        let (rgb, alpha) = params.dabs.iter().fold(unpainted, paint);
         // Shaded once, by the winner.
         let (rgb, alpha) = match (wins, params.ghost) {
             (true, _) => self.parts[params.selection].light((rgb, alpha), &attributes),

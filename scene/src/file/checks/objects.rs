@@ -110,7 +110,11 @@ fn intersections(scene: &Scene, check: &mut Check) {
         return;
     }
     for (i, table) in scene.intersections.iter().enumerate() {
-        if scene.objects.iter().all(|object| object.name != table.object) {
+        if scene.objects.is_empty() {
+            let what = format!("an intersection is of the object {:?}, and the scene has no object", table.object);
+            let remedy = "add an [[object]], or remove the [[intersection]]".into();
+            check.fault_in(&format!("intersection[{i}].object"), Problem::Contradiction { what, remedy });
+        } else if scene.objects.iter().all(|object| object.name != table.object) {
             let known = scene.objects.iter().map(|object| object.name.clone()).collect();
             unknown(&format!("intersection[{i}].object"), "object", &table.object, known, check);
         }
@@ -166,7 +170,25 @@ mod tests {
                 "object[0].matrix",
                 "four rows",
             ),
-            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "has both"),
+            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "has both label and value\n"),
+            (object("label = 3\nvalue = [[0, 1]]"), "object[0].label", "\n  keep label or value"),
+            (
+                object("selection = \"s.nrrd\"\nlabel = 3\nvalue = [[0, 1]]"),
+                "object[0].selection",
+                "\n  keep selection or label or value",
+            ),
+            (object("move = [0, nan, 0]"), "key object[0].move[1]", "object[0].move[1] cannot be NaN\n"),
+            (object("scale = [1, 1, inf]"), "key object[0].scale[2]", "\n  write a finite number"),
+            (
+                object("matrix = [[1, 0, 0, 0], [0, 1, 0, -inf], [0, 0, 1, 0], [0, 0, 0, 1]]"),
+                "key object[0].matrix[1][3]",
+                "object[0].matrix[1][3] cannot be -inf\n",
+            ),
+            (
+                "[[intersection]]\nobject = \"tumour\"\n".into(),
+                "intersection[0].object",
+                "and the scene has no object\n",
+            ),
             (object("value = [[3, 1], [2, 0]]"), "object[0].value[1]", "non-decreasing"),
             (object("[object.transfer]\nnodes = [{ at = 1, style = \"waxx\", opacity = 1 }]"), "style", "wax"),
             (object("") + "[[intersection]]\nobject = \"tumor\"\n", "intersection[0].object", "tumour"),
@@ -182,10 +204,37 @@ mod tests {
             let told = faults(&rest);
             assert!(told.contains(key) && told.contains(what), "{rest}\n{told}");
         }
+        let dab = |keys: &str| {
+            object("") + &format!("[[intersection]]\nobject = \"tumour\"\ndabs = [{{ color = \"red\", {keys} }}]\n")
+        };
+        let (width, widths) = ("intersection[0].dabs[0].width", "write a number above 0, or two of them");
+        for (keys, key, what, remedy) in [
+            ("at = [1, 2], width = 0", width, "cannot be 0", widths),
+            ("at = [1, 2], width = -3", width, "cannot be -3", widths),
+            ("at = [1, 2], width = nan", width, "cannot be NaN", widths),
+            (
+                "at = [1, 2], width = [1, nan]",
+                "intersection[0].dabs[0].width[1]",
+                "cannot be NaN",
+                "write a finite number",
+            ),
+            ("at = [1, 2], width = [1, 0]", width, "cannot be [1, 0]", widths),
+            ("at = [1, 2], width = [1, 2, 3]", width, "cannot be [1, 2, 3]", widths),
+            ("at = [1, 2]", width, "is missing", widths),
+            ("at = 1, width = 3", "intersection[0].dabs[0].at", "cannot be 1", "write two values [v, w]"),
+            ("at = [1], width = 3", "intersection[0].dabs[0].at", "cannot be [1]", "write two values [v, w]"),
+            ("width = 3", "intersection[0].dabs[0].at", "is missing", "at = two values [v, w]"),
+        ] {
+            let told = faults(&dab(keys));
+            let remedy = if what == "is missing" { remedy.replace("write ", "") } else { remedy.into() };
+            assert!(told.starts_with(&format!("{key} {what}\n")) && told.contains(&remedy), "{keys}\n{told}");
+            assert!(told.contains(&format!("key {key}\n")) && told.lines().count() == 3, "{keys}\n{told}");
+        }
         let sound = object(
             "label = [1, 2]\nmove = [0, 0, 4]\n[object.styles]\nmine = \"mine.png\"\n[object.transfer]\nnodes = [{ at = 1, style = \"mine\", opacity = 1 }]",
         ) + "[[clip]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\napplies = [\"tumour\", \"tumour ghost\"]\n"
             + "[[intersection]]\nobject = \"tumour\"\nwith = \"background\"\ncolor = \"#ff000080\"\n"
+            + "dabs = [{ at = [80, 120], width = [10, 10], color = \"#ff8000c0\" }, { at = [-1, 0], width = 5, color = \"red\" }]\n"
             + "[[halo]]\n[[halo]]\nobject = \"background\"\n[[halo]]\nobject = \"tumour ghost\"\n";
         assert_eq!(faults(&sound), "");
     }

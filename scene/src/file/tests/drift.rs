@@ -26,6 +26,8 @@ const OWN: (&str, &str) = ("object", "[{ volume = \"pet.nrrd\" }]");
 const TURNED: (&str, &str) = ("object", "[{ rotate = { angle = 10 } }]");
 const TWO: (&str, &str) = ("object", "[{ name = \"a\" }, { name = \"b\" }]");
 const MEETING: (&str, &str) = ("intersection", "[{ object = \"a\" }]");
+const PAINTED: (&str, &str) =
+    ("intersection", "[{ object = \"a\", dabs = [{ at = [1, 2], width = 3, color = \"red\" }] }]");
 const MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\" }]");
 const TURNED_MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\", rotate = { angle = 10 } }]");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
@@ -252,6 +254,10 @@ const SAMPLES: &[Sample] = &[
     ("intersection[0].color", &[TWO, MEETING], "#ff000080"),
     ("intersection[0].opacity", &[TWO, MEETING], "xor"),
     ("intersection[0].swap", &[TWO, MEETING], "true"),
+    ("intersection[0].dabs", &[TWO, MEETING], "[{ at = [1, 2], width = [3, 4], color = \"#ff000080\" }]"),
+    ("intersection[0].dabs[0].at", &[TWO, PAINTED], "[2, 1]"),
+    ("intersection[0].dabs[0].width", &[TWO, PAINTED], "[4, 5]"),
+    ("intersection[0].dabs[0].color", &[TWO, PAINTED], "#0000ff80"),
     ("mesh", &[], "[{ file = \"a.ply\" }]"),
     ("mesh[0].file", &[MESH], "b.stl"),
     ("mesh[0].color", &[MESH], "#ff0000"),

@@ -76,7 +76,7 @@ impl Scene {
     }
 
     /// A key of a part's scene as the scene itself says it.
-    pub(crate) fn key_of_part(&self, object: usize, role: Role, key: &str) -> String {
+    pub fn key_of_part(&self, object: usize, role: Role, key: &str) -> String {
         let table = &self.objects[object];
         let tables = tables_of(object, table, table.ghost.as_ref().filter(|_| role == Role::Ghost));
         let outer = tables.iter().find_map(|(outer, place)| {
