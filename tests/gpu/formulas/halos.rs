@@ -54,7 +54,7 @@ fn seed(gradient_exponent: f64, side: SeedSide) -> HaloSeed {
 fn seed_formulas() -> String {
     let whole = modules(&["volumetric_halos/seeds"]);
     let from = whole.find("// x^y for x in [0, 1]").unwrap();
-    let functions = &whole[from..whole.find("// Adds a seed of a halo").unwrap()];
+    let functions = &whole[from..whole.find("// Adds the seeds of a sample").unwrap()];
     modules(&["number/number", "number/elementary", "volumetric_halos/halos"]) + functions
 }
 
@@ -316,7 +316,7 @@ fn ends_of_groups() {
     let whole = modules(&["volumetric_halos/images"]);
     let from = whole.find("// Whether a group of M planes").unwrap();
     let kernel = Kernel {
-        modules: whole[from..whole.find("// The point of the picture").unwrap()].to_owned(),
+        modules: whole[from..whole.find("// The pixel that a ray of the images").unwrap()].to_owned(),
         results: &["select(real(0.0), real(1.0), group_ends(i32(x[0]), i32(x[1])))"],
         ..Kernel::default()
     };

@@ -18,7 +18,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
         "",
         "[[halo]]\nevery = 4\n",
     ),
-    ("measured_plane != sample.k", "measured_plane == -NO_SAMPLE", "", "[[halo]]\nevery = 4\n"),
+    ("measured_plane != sample.k", "measured_plane == -NO_PLANE", "", "[[halo]]\nevery = 4\n"),
     // Tiles: out of reach, images that keep what was there, rays that are open.
     ("y = max(at.y - TILE_REACH, 0)", "y = at.y", "", "[[halo]]\n"),
     (
@@ -149,8 +149,8 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
         "[[halo]]\nprofile = [{ at = 0, color = \"red\", opacity = 0.5 }]\n[surface]\niso = 132\n",
     ),
     (
-        "return select(last_before_surface() + 1, NO_SAMPLE",
-        "return select(last_before_surface() + 9, NO_SAMPLE",
+        "return select(last_before_surface() + 1, NO_PLANE",
+        "return select(last_before_surface() + 9, NO_PLANE",
         "",
         "[[halo]]\nkind = \"emissive\"\n[surface]\niso = 132\n",
     ),

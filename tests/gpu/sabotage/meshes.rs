@@ -56,7 +56,7 @@ fn faults_of_meshes_under_halos_are_noticed() {
     let meshes = Meshes::new();
     let text = scene("", &format!("[[halo]]\nevery = 3\n{}", meshes.both()));
     let fault =
-        ("return select(last_before_surface() + 1, NO_SAMPLE", "return select(last_before_surface() + 9, NO_SAMPLE");
+        ("return select(last_before_surface() + 1, NO_PLANE", "return select(last_before_surface() + 9, NO_PLANE");
     let Some(difference) = difference_with(&text, fault) else { return };
     assert!(difference > NOTICED, "{difference:e}");
 }
