@@ -38,13 +38,14 @@ fn sheared(line: ShearedRay, point: vec3<real>) -> vec3<real> {
     return vec3<real>(p[line.axes.x] - line.shear.x * z, p[line.axes.y] - line.shear.y * z, z);
 }
 
-// Twice the area that the ray spans with an edge. The ends are taken in one order, so that the triangle on the other side of
-// the edge has exactly the negative, even where a driver fuses a product with the difference.
+// Twice the area that the ray spans with an edge. The ends are taken in one order and by one expression, so that the triangle
+// on the other side of the edge has exactly the negative, even where a driver fuses a product with the difference.
 fn edge_area(p: vec3<real>, q: vec3<real>) -> real {
-    if (p.x < q.x || (p.x == q.x && p.y < q.y)) {
-        return q.x * p.y - q.y * p.x;
-    }
-    return -(p.x * q.y - p.y * q.x);
+    let is_ordered = p.x < q.x || (p.x == q.x && p.y < q.y);
+    let first = select(q, p, is_ordered);
+    let second = select(p, q, is_ordered);
+    let area = second.x * first.y - second.y * first.x;
+    return select(-area, area, is_ordered);
 }
 
 // The place at which the ray crosses a triangle, edges and corners included, from either side. None for a triangle without

@@ -14,8 +14,11 @@ pub(super) fn cast_apart<R: Real>(
     [alone, together]: [&dyn CastAll; 2],
     work: TileWork<'_>,
 ) {
+    let is_alone: Vec<bool> = work.points.iter().map(|&point| is_alone(prepared, point)).collect();
+    if !is_alone.contains(&true) {
+        return together(work);
+    }
     let TileWork { points, mut boxes, counts, casts } = work;
-    let is_alone: Vec<bool> = points.iter().map(|&point| is_alone(prepared, point)).collect();
     let of = |alone: bool| {
         let points = points.iter().zip(&is_alone).filter(move |(_, is_alone)| **is_alone == alone);
         points.map(|(point, _)| *point).collect()
