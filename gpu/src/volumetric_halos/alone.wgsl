@@ -1,16 +1,10 @@
 // The samples of a picture without objects: each shows and seeds by the volume alone.
 
-var<private> seed_run: vec2<i32>;
-
 fn aim_image(at: vec2<i32>) {
 }
 
-fn aim_seeds(ray: Ray) {
-    seed_run = seeds_left(ray, samples_inside(ray));
-}
-
-fn samples_that_seed() -> vec2<i32> {
-    return seed_run;
+fn samples_that_seed(ray: Ray) -> vec2<i32> {
+    return seeds_left(ray, samples_inside(ray));
 }
 
 fn samples_that_show(ray: Ray) -> vec2<i32> {

@@ -22,7 +22,8 @@ fn aim_seeds(ray: Ray) {
     own_seeds = seeds_left(ray, own_box);
 }
 
-fn samples_that_seed() -> vec2<i32> {
+fn samples_that_seed(ray: Ray) -> vec2<i32> {
+    aim_seeds(ray);
     return run_of_parts(own_seeds);
 }
 

@@ -35,8 +35,7 @@ fn halo_start(@builtin(global_invocation_id) id: vec3<u32>) {
     let point = image_point(at);
     let ray = ray_through(point.x, point.y);
     aim_image(at);
-    aim_seeds(ray);
-    let run = samples_that_seed();
+    let run = samples_that_seed(ray);
     seed_ray_numbers[seed_place(0, place)] = real(run.x);
     seed_ray_numbers[seed_place(1, place)] = real(run.y);
     keep_seed(place);
