@@ -1,6 +1,6 @@
 //! Table 1 of Bruckner and Gröller 2005: frames of the UNC head with a cubic selection of 16³, 32³ and 64³ voxels in its middle
 //! beside frames without one. The paper's function and picture: opaque above 1228, 512×512 pixels, about 444 planes, turned
-//! about each axis. Empty space is skipped, and rays end at 1/255.
+//! about each axis. Empty space is skipped, and a ray ends where less than 1/255 shines through.
 //!
 //! `cargo bench --bench volumeshop_table_1`, with `--features gpu` on a graphics card, too.
 

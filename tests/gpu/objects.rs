@@ -168,6 +168,11 @@ fn cutaways() {
             shells(&files.soft(&format!("{behind}\ncut = \"object\""))).replace("[shading]", lighting),
         ),
         ("smooth", shells(&files.soft(&format!("{behind}\nfunnel = \"3.2 px\"\ncut = \"object\"")))),
+        (
+            "by objects, with counts",
+            SHELLS.replace("LAYERS", "layers = [\"beauty\", \"counts\"]")
+                + &files.soft(&format!("{behind}\ncut = \"object\"")),
+        ),
         ("smooth, two, along rays", shells(&(smooth + "[sampling]\nstep_along = \"ray\"\n"))),
     ]);
 }
@@ -203,7 +208,7 @@ fn halos_of_parts() {
     let bright = "kind = \"emissive\"\nevery = 2\nseed.value = [[60, 0], [120, 1], [200, 0.4]]";
     let focus = "seed = { focus = { at = [[16, 10, 12]], inner = 2, falloff = 9 }, direction = { toward = 30, width = 120, softness = 40 } }";
     let each = of("a", bright) + &of("a ghost", focus) + &of("background", "every = 3\naccumulate = \"mean\"");
-    let cut = "move = [2, 3, 1]\nghosting = 0.8\nghosting_of_ghost = 0.3\nfunnel = \"2 px\"";
+    let cut = "move = [2, 3, 1]\nghosting = 0.8\nghosting_of_ghost = 0.3\nfunnel = \"2 px\"\ncut = \"object\"";
     let layers = "layers = [\"beauty\", \"normal\", \"depth\", \"first\", \"counts\", \"halo0\", \"halo1\"]";
     let clip = "[[clip]]\npoint = [12, 12, 12]\nnormal = [0, -1, 0]\nspace = \"index\"\ncap = \"#ff3010c0\"\n\
                 applies = [\"background\", \"a\"]\n[surface]\niso = 110\ncolor = \"#c0c0c0\"\n";
@@ -227,7 +232,12 @@ fn halos_of_parts() {
         ),
         ("cut, before an iso-surface", shells(&(near.clone() + clip + "[[halo]]\n"))),
         ("by curvature, of styles", styled(&(near.clone() + "[[halo]]\nseed.by = \"curvature\"\n"))),
-        ("by gradient magnitudes", two_quantities(&(near + "[[halo]]\nkind = \"emissive\"\n"))),
+        (
+            "by gradient magnitudes, beside values that show nothing",
+            two_quantities(
+                &(near + "[[halo]]\nkind = \"emissive\"\n[[halo]]\nseed.value = [[5, 0], [12, 1], [19, 0]]\n"),
+            ),
+        ),
     ];
     compare(variants.into_iter().map(small).collect());
 }

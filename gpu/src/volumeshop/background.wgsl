@@ -21,7 +21,6 @@ fn aim_objects(pixel: vec2<i32>, part: i32, across: i32) {
 fn aim_background(ray: Ray) {
     own_ray = ray;
     own_box = samples_inside(ray);
-    own_run = samples_left(ray, own_box);
     here_k = NO_SAMPLE;
 }
 

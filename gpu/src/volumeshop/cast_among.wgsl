@@ -3,9 +3,11 @@
 fn cast_ray(ray: Ray) -> Front {
     var front = Front();
     let ratio = ray.step / params.reference_length;
-    begin_ray(ray);
     aim_background(ray);
+    // Samples that are looked up for the ends of cutaways are not counted: a ray begins with its own.
     end_cutaways();
+    begin_ray(ray);
+    own_run = samples_left(ray, own_box);
     let all = all_left(ray, run_of_parts(own_run));
     var k = all.x;
     while (k <= all.y && front.opacity < params.stop_at) {

@@ -2,11 +2,16 @@
 
 // Its plane, counted from the anchor; NOT_MET if there is none.
 fn last_member() -> real {
+    var last = real(-NOT_MET);
     for (var k = part_range.y; k >= part_range.x; k--) {
         let found = part_set(k, part_membership(k));
         if (found.weight > 0.0 && found.mu > 0.0) {
-            return real(k);
+            last = real(k);
+            break;
         }
     }
-    return -NOT_MET;
+    // A sample that is looked up for what it shows is looked up again.
+    part_k = NO_SAMPLE;
+    here_k = NO_SAMPLE;
+    return last;
 }

@@ -58,7 +58,7 @@ pub(crate) fn has_members(selection: &SelectionParams) -> bool {
 }
 
 /// The cutaways of a shot that have a depth.
-fn cutaways(combination: &Combination) -> impl Iterator<Item = &Cutaway> {
+pub(crate) fn cutaways(combination: &Combination) -> impl Iterator<Item = &Cutaway> {
     combination.cutaways.iter().filter(|cutaway| {
         let selection = &combination.selections[combination.parts[cutaway.part].object];
         has_members(selection) && (cutaway.cut == Cut::Object || selection.index_box.is_some())

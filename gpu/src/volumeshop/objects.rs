@@ -39,6 +39,11 @@ pub(crate) fn suffix(part: usize) -> String {
     format!("_{part}")
 }
 
+/// The name of the first sample that a cutaway leaves.
+pub(crate) fn cut_end(cutaway: usize) -> String {
+    format!("cut_end_{cutaway}")
+}
+
 /// Adds the combination of parts, whose shaders are attached after it.
 pub(crate) fn add(
     shader: &mut Shader,

@@ -17,25 +17,23 @@ fn aim_image(at: vec2<i32>) {
     begin_part(pixel.xy, pixel.z, RAYS_ACROSS);
 }
 
-fn aim_seeds(ray: Ray) {
+fn samples_that_seed(ray: Ray) -> vec2<i32> {
     aim_background(ray);
     own_seeds = seeds_left(ray, own_box);
-}
-
-fn samples_that_seed(ray: Ray) -> vec2<i32> {
-    aim_seeds(ray);
+    end_cutaways();
     return run_of_parts(own_seeds);
 }
 
 fn samples_that_show(ray: Ray) -> vec2<i32> {
-    aim_background(ray);
+    own_run = samples_left(ray, own_box);
     return all_left(ray, run_of_parts(own_run));
 }
 
-// Aims a ray that goes on.
+// Aims a ray that goes on; the ends of cutaways are kept.
 fn aim_again(ray: Ray) {
-    aim_seeds(ray);
-    end_cutaways();
+    aim_background(ray);
+    own_seeds = seeds_left(ray, own_box);
+    own_run = samples_left(ray, own_box);
 }
 
 // The first plane that can show or seed something of the background, within a span without parts.
@@ -108,8 +106,12 @@ fn sow_background(k: i32, weight: real) {
     }
     here.place = node_place(locate_value(here.s));
     sow(own_ray, here, 0);
+    var most = real(0.0);
+    for (var halo = 0; halo < HALOS; halo++) {
+        most = max(most, seeds_of_set[halo]);
+    }
     var factor = real(1.0);
-    if (is_before_cut(k)) {
+    if (most > 0.0 && is_before_cut(k)) {
         factor = ghosted(k, measured_rest(own_ray, here, measured_first(own_ray, here)));
     }
     join_seeds(weight, factor);

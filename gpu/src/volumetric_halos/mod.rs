@@ -10,7 +10,7 @@ use crate::number::{ELEMENTARY, NUMBER};
 use crate::place::Place;
 use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
 use crate::shader::{Constant, Data, Shader, module};
-use crate::{GpuError, Inputs, Precision, transfer};
+use crate::{GpuError, Inputs, Precision, transfer, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
@@ -271,7 +271,9 @@ fn add_stages(
     if clips.is_some() {
         kept.extend([Kept::whole("cut_k"), Kept::whole("cut_plane")]);
     }
-    let seed_kept = kept.clone();
+    let mut seed_kept = kept.clone();
+    let cutaways = shot.combination.iter().flat_map(volumeshop::cutaways).count();
+    seed_kept.extend((0..cutaways).map(|i| Kept::whole(volumeshop::objects::cut_end(i))));
     if ends_rays(shot) {
         kept.push(Kept::real("hit"));
     }

@@ -1,23 +1,24 @@
 //! The functions that rays and seeds of halos call at each step.
 
+use std::borrow::Cow;
 use std::fmt::Write;
 
 /// A number that a ray keeps from group to group of planes: a private variable of the shader.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Kept {
-    name: &'static str,
+    name: Cow<'static, str>,
     is_whole: bool,
 }
 
 impl Kept {
     /// A number.
     pub(crate) fn real(name: &'static str) -> Self {
-        Self { name, is_whole: false }
+        Self { name: name.into(), is_whole: false }
     }
 
     /// A whole number.
-    pub(crate) fn whole(name: &'static str) -> Self {
-        Self { name, is_whole: true }
+    pub(crate) fn whole(name: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: name.into(), is_whole: true }
     }
 }
 

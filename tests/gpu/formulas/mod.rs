@@ -101,7 +101,6 @@ const HELD_BY_PICTURES: &[&str] = &[
     "aim_image",
     "aim_objects",
     "aim_part",
-    "aim_seeds",
     "aim_selection",
     "ask_before",
     "ask_opacity",

@@ -1,6 +1,7 @@
 //! A halo belongs to the picture, not to the frame about it ([HALO-4], [HALO-5]).
 
 use crate::common::{Stage, largest_difference, orthographic, perspective, volume};
+use crate::volumeshop::{SHELLS, drawn, layer, scene_of};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{Halo, HaloKind, Length, RaysPerPixel, SeedBy};
@@ -87,4 +88,21 @@ fn perspective_in_two_number_types() {
     let apart = largest_difference(&double, &single);
     assert!(apart > 0.0 && apart < 2e-3, "{apart}");
     assert_eq!(stage.render_in_tiles(32).bits(), double.bits());
+}
+
+/// Halos seed apart ([HALO-2]): one by values has the same intensities beside one by the opacity of a function over two
+/// quantities, which is 0 at those values.
+#[test]
+fn a_halo_beside_another_is_the_same() {
+    const OVER_TWO: &str = "layers = [\"beauty\", \"halo0\"]\n[transfer]\nkind = \"regular\"\nover = [\"value\", \"gradient-magnitude\"]\n\
+        rows = [{ at = 0, nodes = [{ at = 150, color = \"#c08040\", opacity = 0 }, { at = 255, color = \"#c08040\", opacity = 0.5 }] },\n\
+        { at = 20, nodes = [{ at = 150, color = \"#80ff40\", opacity = 0 }, { at = 255, color = \"#80ff40\", opacity = 0.2 }] }]\n\
+        [shading]\n[[halo]]\nseed.value = [[20, 0], [60, 1], [100, 0]]\n";
+    let intensities = |more: &str| {
+        let (picture, _) = drawn(&scene_of(SHELLS, &format!("{OVER_TWO}{more}")));
+        layer(&picture, LayerKind::Halo(0))[0].clone()
+    };
+    let alone = intensities("");
+    assert!(alone.iter().sum::<f64>() > 1.0, "{alone:?}");
+    assert!(alone == intensities("[[halo]]\nseed.value = \"opacity\"\n"));
 }

@@ -23,7 +23,8 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         // h_v, h_l and h_p, and with a function over two quantities what α_u needs.
         let position = self.ray.position(sample.k);
         let mut attributes = SampleAttributes::neutral();
-        let alpha_u = if seeds.reads_opacity { self.alpha_u(sample, &mut attributes, counts) } else { 0.0 };
+        let reads = seeds.reads_opacity;
+        let (alpha_u, asked) = if reads { self.alpha_u(sample, &mut attributes, counts) } else { (0.0, false) };
         let place = SeedPlace {
             value: sample.s.to_f64(),
             alpha_u,
@@ -39,7 +40,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
             return;
         }
         // s, of samples that have a normal.
-        let rest = if seeds.reads_opacity { seeds.rest } else { seeds.query };
+        let rest = if asked { seeds.rest } else { seeds.query };
         let attributes = self.evaluate(sample, rest, attributes, counts);
         if attributes.normal.is_none() {
             return;
@@ -63,14 +64,14 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         }
     }
 
-    /// α_u of a sample. What a function over two quantities asks for it becomes part of the attributes.
+    /// α_u of a sample, and whether a function over two quantities asked for attributes, which are known then.
     #[inline]
-    fn alpha_u(&mut self, sample: Sample<R>, attributes: &mut SampleAttributes<R>, counts: &mut Counts) -> f64 {
+    fn alpha_u(&mut self, sample: Sample<R>, attributes: &mut SampleAttributes<R>, counts: &mut Counts) -> (f64, bool) {
         let object = self.object;
-        let Some(place) = object.function.locate(sample.s) else { return 0.0 };
-        let Some(over_two) = &object.over_two else { return place.alpha_u.to_f64() };
+        let Some(place) = object.function.locate(sample.s) else { return (0.0, false) };
+        let Some(over_two) = &object.over_two else { return (place.alpha_u.to_f64(), false) };
         *attributes = self.evaluate(sample, over_two.first, *attributes, counts);
         let here = self.quantities(sample, attributes);
-        over_two.locate(&here).map_or(0.0, |patch| patch.alpha_u.to_f64())
+        (over_two.locate(&here).map_or(0.0, |patch| patch.alpha_u.to_f64()), true)
     }
 }
