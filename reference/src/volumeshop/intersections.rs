@@ -102,7 +102,7 @@ mod tests {
         }
     }
 
-    /// Of two dabs at one place the last is on top: with w₁ = ½ and w₂ = ¼ over nothing α = ⅝; the second has ¼ of it, the
+    /// The last of two dabs at one place is on top: with w₁ = ½ and w₂ = ¼ over nothing α = ⅝; the second has ¼ of it, the
     /// first ⅜.
     #[test]
     fn a_later_dab_lies_over_an_earlier() {
