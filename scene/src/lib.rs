@@ -24,6 +24,7 @@ pub mod memory;
 pub mod mesh;
 mod nearest;
 pub mod other_grid;
+pub mod parallel;
 pub mod phantom;
 pub mod philox;
 pub mod picture;

@@ -54,6 +54,7 @@ use crate::job::{Job, KnobVariant};
 use crate::{Failure, Failures};
 use drypoint_output::read::Image;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
+use drypoint_scene::parallel;
 use drypoint_scene::phantom::{self, Phantom};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::{Pass, Plan};
@@ -254,7 +255,7 @@ pub fn sweep(
         rows: Vec::new(),
         left_out: Vec::new(),
         runs: options.runs.max(1),
-        threads: rayon::current_num_threads(),
+        threads: parallel::threads(),
         size: base.picture.size,
     };
     for (knob, setting, at) in &settings {

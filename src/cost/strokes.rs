@@ -4,8 +4,8 @@ use super::error::SettingError;
 use super::statistics::median;
 use drypoint_output::compare::line_distance::{LineDistance, WorldLine, angles, line_distance};
 use drypoint_scene::marks::{Marks, Polyline};
+use drypoint_scene::parallel;
 use drypoint_scene::strokes::Stroke;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Longest piece of a stroke, in voxels.
@@ -32,8 +32,8 @@ pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) 
     };
     let by_seed: BTreeMap<u64, &Stroke> = b.iter().map(|stroke| (stroke.key, stroke)).collect();
     let pairs: Vec<(&Stroke, &Stroke)> = a.iter().filter_map(|a| Some((a, *by_seed.get(&a.key)?))).collect();
-    let mut compared: Vec<(LineDistance, Vec<f64>)> =
-        pairs.par_iter().filter_map(|pair| of_pair(*pair, voxel)).collect();
+    let compared = parallel::map(pairs.len(), &|i| of_pair(pairs[i], voxel));
+    let mut compared: Vec<(LineDistance, Vec<f64>)> = compared.into_iter().flatten().collect();
     if compared.is_empty() {
         return None;
     }

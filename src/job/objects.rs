@@ -7,13 +7,13 @@ use drypoint_output::read::read_intersection_picture;
 use drypoint_reference::ray::ObjectInputs;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::parallel;
 use drypoint_scene::plan::{NodesPlan, Plan};
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::volume::{Anatomy, Selection, Volume, read};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// The objects of a job.
@@ -296,7 +296,7 @@ fn selected_by_value(data: &Volume, pairs: &[[f64; 2]]) -> Option<[[usize; 3]; 2
         Some(b) => Some(around(a, b)),
         None => a,
     };
-    let [lo, hi] = (0..nz).into_par_iter().map(of_slice).reduce(|| None, around_both)?;
+    let [lo, hi] = parallel::map(nz, &of_slice).into_iter().fold(None, around_both)?;
     let last = [nx - 1, ny - 1, nz - 1];
     Some([lo.map(|i| i.saturating_sub(1)), std::array::from_fn(|a| (hi[a] + 1).min(last[a]))])
 }

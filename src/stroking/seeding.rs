@@ -8,8 +8,8 @@ use drypoint_reference::interactive_volume_illustration::{Seeds, Sight};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::marks::{Dot, Layer, Marks, Pen};
+use drypoint_scene::parallel;
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -50,7 +50,10 @@ impl Stroking<'_> {
             let seen = sight.sees(world + eye * (BEFORE * grid.voxel()));
             seen.then_some(((p * (TONES - 1) as f64).round() as usize, Dot { at, world, radius, opacity: 1.0 }))
         };
-        let dots: Vec<(usize, Dot)> = map.0.cells.par_iter().filter_map(dot).collect();
+        let cells = &map.0.cells;
+        let dots = parallel::gather(cells.len(), parallel::RUN, &|run, dots| {
+            dots.extend(cells[run].iter().filter_map(dot));
+        });
         counts.preprocess.insert("looks for what hides".into(), map.0.cells.len() as u64);
         let layer = |tone: usize| {
             let share = tone as f64 / (TONES - 1) as f64;

@@ -247,7 +247,7 @@ fn measured(volume: &Volume, has_range: bool, has_bricks: bool) -> Measured {
         let dims = volume.dims().map(|n| n + 4);
         PaddedNumbers { data: vec![1.0; dims.iter().product()], dims, pad: 2 }
     };
-    let bricks = Bricks::new(volume.dims(), |_| vec![[0.0, 10.0]; 2]);
+    let bricks = Bricks::new(volume.dims(), &|_| vec![[0.0, 10.0]; 2]);
     Measured {
         numbers: Arc::new(numbers()),
         voxels: Some(Arc::new(numbers())),

@@ -9,8 +9,8 @@ use super::voxel_hessian::of_spline;
 use crate::number::lanes::wide;
 use crate::number::{Real, RowOfFour, Sym3, Vec3};
 use drypoint_scene::measured::PaddedNumbers;
+use drypoint_scene::parallel;
 use fearless_simd::Simd;
-use rayon::prelude::*;
 
 /// Coefficients minus a constant, x fastest, padded beyond each border by the reach of the spline.
 ///
@@ -62,7 +62,7 @@ impl<R: Real> Coefficients<R> {
         let base: R = stencils.lowest();
         let mut data = vec![R::ZERO; dims.iter().product()];
         let row_of = |row: usize| (row % dims[1], row / dims[1]);
-        data.par_chunks_mut(dims[0]).enumerate().for_each(|(row, out)| {
+        parallel::chunks_mut(&mut data, dims[0], &|row, out| {
             let (y, z) = row_of(row);
             let (Some(y), Some(z)) = (y.checked_sub(pad), z.checked_sub(pad)) else { return };
             if y < inner[1] && z < inner[2] {
@@ -79,9 +79,9 @@ impl<R: Real> Coefficients<R> {
         for axis in 0..3 {
             if let Some(filter) = Prefilter::new(self.inner[axis], self.pad) {
                 match axis {
-                    0 => self.lines_along_x(|line| filter.solve_line(line)),
-                    1 => self.slabs(|rows, lanes| filter.solve_lanes(rows, lanes)),
-                    _ => self.planes(|planes, lanes| filter.solve_lanes(planes, lanes)),
+                    0 => self.lines_along_x(&|line| filter.solve_line(line)),
+                    1 => self.slabs(&|rows, lanes| filter.solve_lanes(rows, lanes)),
+                    _ => self.planes(&|planes, lanes| filter.solve_lanes(planes, lanes)),
                 }
             }
         }
@@ -109,7 +109,7 @@ impl<R: Real> Coefficients<R> {
         let stride = [1, px, px * py][axis];
         let mut out = vec![R::ZERO; self.data.len()];
         let (dims, inner, pad, data) = (self.dims, self.inner, self.pad, &self.data);
-        out.par_chunks_mut(px).enumerate().for_each(|(row, out)| {
+        parallel::chunks_mut(&mut out, px, &|row, out| {
             let at = [pad, row % dims[1], row / dims[1]];
             let is_inner = |a: usize| at[a] >= pad && at[a] < pad + inner[a];
             if !(is_inner(1) && is_inner(2)) {
@@ -238,19 +238,19 @@ impl<R: Real> Coefficients<R> {
         }
     }
 
-    fn lines_along_x(&mut self, solve: impl Fn(&mut [R]) + Sync) {
+    fn lines_along_x(&mut self, solve: &(dyn Fn(&mut [R]) + Sync)) {
         let (pad, n) = (self.pad, self.inner[0]);
-        self.data.par_chunks_mut(self.dims[0]).for_each(|row| solve(&mut row[pad..pad + n]));
+        parallel::chunks_mut(&mut self.data, self.dims[0], &|_, row| solve(&mut row[pad..pad + n]));
     }
 
     /// Lines along y, a whole row of them at a time.
-    fn slabs(&mut self, solve: impl Fn(&mut [R], usize) + Sync) {
+    fn slabs(&mut self, solve: &(dyn Fn(&mut [R], usize) + Sync)) {
         let ([px, py, _], pad, n) = (self.dims, self.pad, self.inner[1]);
-        self.data.par_chunks_mut(px * py).for_each(|slab| solve(&mut slab[pad * px..(pad + n) * px], px));
+        parallel::chunks_mut(&mut self.data, px * py, &|_, slab| solve(&mut slab[pad * px..(pad + n) * px], px));
     }
 
     /// Lines along z, a whole plane of them at a time.
-    fn planes(&mut self, solve: impl Fn(&mut [R], usize)) {
+    fn planes(&mut self, solve: &dyn Fn(&mut [R], usize)) {
         let ([px, py, _], pad, n) = (self.dims, self.pad, self.inner[2]);
         solve(&mut self.data[pad * px * py..(pad + n) * px * py], px * py);
     }
@@ -258,8 +258,8 @@ impl<R: Real> Coefficients<R> {
     /// Continues the numbers beyond the border, along x, then y, then z, by the recurrence of [REC-1].
     fn fill_border(&mut self) {
         let ([px, py, _], [nx, ny, nz], pad) = (self.dims, self.inner, self.pad);
-        self.data.par_chunks_mut(px).for_each(|row| continue_lanes(row, 1, nx, pad));
-        self.data.par_chunks_mut(px * py).for_each(|slab| continue_lanes(slab, px, ny, pad));
+        parallel::chunks_mut(&mut self.data, px, &|_, row| continue_lanes(row, 1, nx, pad));
+        parallel::chunks_mut(&mut self.data, px * py, &|_, slab| continue_lanes(slab, px, ny, pad));
         continue_lanes(&mut self.data, px * py, nz, pad);
     }
 }

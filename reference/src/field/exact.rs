@@ -7,6 +7,7 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::space::Grid;
+use std::fmt;
 
 /// A phantom's formula on the box of its grid, with its exact derivatives. Rounding to stored integers is not in it.
 #[derive(Clone, Copy)]
@@ -16,6 +17,12 @@ pub struct Exact<'p> {
     cells: Cells<f64>,
     /// e of [SPACE-4].
     exponent: i32,
+}
+
+impl fmt::Debug for Exact<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Exact").field("exponent", &self.exponent).finish_non_exhaustive()
+    }
 }
 
 impl<'p> Exact<'p> {

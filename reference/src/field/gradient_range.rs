@@ -1,29 +1,24 @@
 //! The range of ‖g‖ that |g| from 0 to 1 stands for ([VAL-2]).
 
-use crate::field::{GradientEstimator, Sampler};
+use crate::field::{Field, GradientEstimator};
 use crate::number::Real;
+use drypoint_scene::parallel;
+use drypoint_scene::volume::Mask;
 use drypoint_scene::volume::quantile::quantile;
-use drypoint_scene::volume::{Mask, Volume};
-use rayon::prelude::*;
 use std::ops::RangeInclusive;
 
 /// The quantile q of ‖g‖ over the voxels where it exceeds [PREC-3]'s bound, times the power of two of [SPACE-4], and
 /// the number of voxels that were evaluated. 0 where no voxel has a normal. Voxels whose stencil touches a masked one are
 /// left out.
-pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
-    sampler: &S,
-    volume: &Volume,
-    estimator: GradientEstimator,
-    no_normal_below: R,
-    q: f64,
-) -> (f64, u64) {
+pub(crate) fn quantile_of_norms<R: Real>(field: &Field<'_, R>, q: f64) -> (f64, u64) {
+    let (volume, estimator, no_normal_below) = (field.volume, field.how.gradient, field.no_normal_below);
     let dims @ [nx, ny, nz] = volume.dims();
     let counts = |x: usize, y: usize, z: usize| !volume.mask().is_some_and(|m| touches(m, dims, [x, y, z], estimator));
     // Roots keep the order, so the square of the quantile is selected and its root is taken once.
     let least = square_of(no_normal_below);
     let fill = |(rows, squares): &mut (Vec<R>, Vec<R>), row: usize, numbers: &mut Vec<f64>| {
         let (y, z) = (row % ny, row / ny);
-        sampler.voxel_squares([y, z], rows, squares);
+        field.voxel_squares([y, z], rows, squares);
         // Each square is written behind the last that counts: without a branch, which would be guessed wrong at every edge
         // of an object.
         numbers.resize(nx, 0.0);
@@ -34,13 +29,13 @@ pub(crate) fn quantile_of_norms<R: Real, S: Sampler<R>>(
         }
         numbers.truncate(kept);
     };
-    let square = quantile(ny * nz, || (Vec::new(), vec![R::ZERO; nx]), fill, q);
+    let square = quantile(ny * nz, &|| (Vec::new(), vec![R::ZERO; nx]), &fill, q);
     let hi = square.map(|square| R::from_f64(square).sqrt().to_f64());
     let evaluated = match volume.mask() {
         None => (nx * ny * nz) as u64,
         Some(_) => {
             let of_row = |row: usize| (0..nx).filter(|&x| counts(x, row % ny, row / ny)).count() as u64;
-            (0..ny * nz).into_par_iter().map(of_row).sum()
+            parallel::map(ny * nz, &of_row).into_iter().sum()
         }
     };
     (hi.unwrap_or(0.0), evaluated)
@@ -88,11 +83,11 @@ pub(crate) fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimato
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::{Field, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
+    use crate::field::{HessianEstimator, Kernel, Outside, Reconstruction, Rung, Sampler};
     use crate::number::Vec3;
     use crate::with_sampler;
     use drypoint_scene::space::Grid;
-    use drypoint_scene::volume::Voxels;
+    use drypoint_scene::volume::{Volume, Voxels};
 
     /// Voxels of a grid, x fastest.
     fn voxels([nx, ny, nz]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {

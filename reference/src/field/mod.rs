@@ -38,15 +38,15 @@ pub use exact::Exact;
 pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};
 pub(crate) use place::Cells;
 pub use place::Place;
-pub use sampler::{AnySampler, Sampled, Sampler};
+pub use sampler::{AnySampler, Sampler, TrilinearSampler};
 
 use crate::number::{Mat3, Real, Sym3, Vec3};
 use coefficients::Coefficients;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
+use drypoint_scene::phantom::Phantom;
 use drypoint_scene::volume::{Bricks, Volume};
 use gradient::regression::Regression;
-use kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use stencil::Stencils;
@@ -74,6 +74,8 @@ pub struct Field<'v, R> {
     /// Present only for the `regression` gradient.
     regression: Option<Regression<R>>,
     second: Second<R>,
+    /// The formula that stands in for the voxels ([COST-2]); none: there is none.
+    formula: Option<Exact<'v>>,
 }
 
 /// The kernel with its data.
@@ -156,6 +158,7 @@ impl<'v, R: Real> Field<'v, R> {
                 HessianEstimator::Analytic => Second::Analytic,
                 HessianEstimator::Auto | HessianEstimator::Central => Second::Central,
             },
+            formula: None,
         })
     }
 
@@ -176,7 +179,7 @@ impl<'v, R: Real> Field<'v, R> {
 
     /// Ranges of values that no sample leaves, one for each brick of cells ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
-        Bricks::new(self.volume.dims(), |row| {
+        Bricks::new(self.volume.dims(), &|row| {
             let read = match &self.kernel {
                 KernelData::Trilinear => ranges::corners(&self.stencils, row),
                 KernelData::BsplineSmooth => ranges::supports::<R>(&self.stencils, row),
@@ -227,15 +230,22 @@ impl<'v, R: Real> Field<'v, R> {
         }
     }
 
-    /// The sampler of the field's kernel.
+    /// Takes a phantom's own formula and its derivatives in place of the voxels: what reconstructions converge to
+    /// ([COST-2]). Ranges of bricks remain those of the voxels.
+    pub fn with_formula(self, phantom: &'v dyn Phantom) -> Self {
+        let exact = Exact::new(phantom, self.volume.grid(), self.exponent);
+        Self { formula: Some(exact), ..self }
+    }
+
+    /// The field's sampler.
     pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
-        match &self.kernel {
-            KernelData::Trilinear => AnySampler::Trilinear(self.trilinear()),
-            KernelData::Bspline(c) => AnySampler::Bspline(Sampled::new(self, Bspline(c))),
-            KernelData::BsplineSmooth => AnySampler::BsplineSmooth(Sampled::new(self, BsplineSmooth)),
-            KernelData::Bspline5(c) => AnySampler::Bspline5(Sampled::new(self, Bspline5(c))),
-            KernelData::CatmullRom => AnySampler::CatmullRom(Sampled::new(self, CatmullRom)),
-        }
+        if self.is_trilinear() { AnySampler::Trilinear(self.trilinear()) } else { AnySampler::Any(self) }
+    }
+
+    /// Whether values are the voxels' trilinear interpolation.
+    #[inline(always)]
+    fn is_trilinear(&self) -> bool {
+        matches!(self.kernel, KernelData::Trilinear) && self.formula.is_none()
     }
 
     /// Whether samplers give gradients. All do, except by a `regression` that was not prepared for.
@@ -250,8 +260,9 @@ impl<'v, R: Real> Field<'v, R> {
     }
 
     /// The trilinear sampler, whatever the field's kernel.
-    pub(crate) fn trilinear(&self) -> Sampled<'_, 'v, R, Trilinear> {
-        Sampled::new(self, Trilinear)
+    #[inline(always)]
+    fn trilinear(&self) -> TrilinearSampler<'_, 'v, R> {
+        TrilinearSampler(self)
     }
 
     /// The cell of a position in index space, inside the box of [SPACE-1]: the same for every kernel.

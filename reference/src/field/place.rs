@@ -11,6 +11,15 @@ pub struct Place<R> {
     pub w: [R; 3],
 }
 
+impl<R: Real> Place<R> {
+    /// The place in f64.
+    #[inline]
+    pub(crate) fn to_f64(self) -> Place<f64> {
+        let [x, y, z] = self.w;
+        Place { cell: self.cell, w: [x.to_f64(), y.to_f64(), z.to_f64()] }
+    }
+}
+
 /// The cells of a grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cells<R> {

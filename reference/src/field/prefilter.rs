@@ -10,7 +10,7 @@
 //! the border. Lines of one and two samples are their own coefficients.
 
 use crate::number::Real;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// The decomposed system of one line.
 #[derive(Clone, Debug)]
@@ -101,16 +101,13 @@ impl<R: Real> Prefilter<R> {
 
 /// here = f(here, one, two) for each lane; long runs are shared among threads.
 fn lane_by_lane<R: Real>(here: &mut [R], one: &[R], two: &[R], f: impl Fn(R, R, R) -> R + Sync) {
-    let chunk = |here: &mut [R], one: &[R], two: &[R]| {
-        for ((y, &one), &two) in here.iter_mut().zip(one).zip(two) {
+    let chunk = |chunk: usize, here: &mut [R]| {
+        let from = chunk * CHUNK;
+        for ((y, &one), &two) in here.iter_mut().zip(&one[from..]).zip(&two[from..]) {
             *y = f(*y, one, two);
         }
     };
-    if here.len() <= CHUNK {
-        return chunk(here, one, two);
-    }
-    let beside = one.par_chunks(CHUNK).zip(two.par_chunks(CHUNK));
-    here.par_chunks_mut(CHUNK).zip(beside).for_each(|(here, (one, two))| chunk(here, one, two));
+    if here.len() <= CHUNK { chunk(0, here) } else { parallel::chunks_mut(here, CHUNK, &chunk) }
 }
 
 /// The entries of row i at columns i − 2 … i + 2, in sixths or 120ths: the taps, those beyond the border folded back.

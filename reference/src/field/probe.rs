@@ -2,7 +2,6 @@
 
 use super::{Field, Outside, Sampler, curvature, normal};
 use crate::number::{Sym3, Vec3};
-use crate::with_sampler;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 
@@ -44,7 +43,7 @@ pub fn at_index(field: &Field<'_, f64>, index: DVec3, view: Option<DVec3>) -> Op
         return None;
     }
     let p = Vec3::from_glam(index);
-    let (value, gradient, (own, hessian)) = with_sampler!(field, |s| (s.value(p), s.gradient(p), s.hessian(p)));
+    let (value, gradient, (own, hessian)) = (field.value(p), field.gradient(p), field.hessian(p));
     let outside: Outside = field.reconstruction().outside;
     let normal = normal::outward(gradient, outside, field.no_normal_below());
     let has_surface = normal.is_some() && normal::outward(own, outside, field.no_normal_below()).is_some();

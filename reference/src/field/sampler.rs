@@ -2,9 +2,8 @@
 
 use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::Place;
-use super::{Field, GradientEstimator, Second, gradient, hessian};
+use super::{Field, GradientEstimator, KernelData, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 /// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
@@ -26,7 +25,10 @@ pub trait Sampler<R: Real>: Sync {
 
     /// Number of values worth computing at once: independent values hide latency, but those beyond the first ones
     /// wanted are computed in vain.
-    const AT_ONCE: usize = 1;
+    #[inline(always)]
+    fn at_once(&self) -> usize {
+        1
+    }
 
     /// The gradient at a place by the field's estimator, in world space, times 2^−e.
     ///
@@ -42,18 +44,6 @@ pub trait Sampler<R: Real>: Sync {
     #[inline]
     fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
-    }
-
-    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`voxel_gradient`](Self::voxel_gradient) with itself.
-    /// `rows` is working memory, and `squares` is as long as the row.
-    ///
-    /// # Panics
-    /// See [`voxel_gradient`](Self::voxel_gradient).
-    fn voxel_squares(&self, [y, z]: [usize; 2], _rows: &mut Vec<R>, squares: &mut [R]) {
-        for (x, square) in squares.iter_mut().enumerate() {
-            let gradient = self.voxel_gradient([x, y, z]);
-            *square = gradient.dot(gradient);
-        }
     }
 
     /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
@@ -109,23 +99,6 @@ pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;
 
-    /// [`Sampler::AT_ONCE`].
-    const AT_ONCE: usize = 1;
-
-    /// The values at several places.
-    #[inline(always)]
-    fn values(&self, field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
-        for (i, value) in values.iter_mut().enumerate() {
-            *value = self.value(field, place(i));
-        }
-    }
-
-    /// [`Sampler::corners`].
-    #[inline(always)]
-    fn corners(&self, _field: &Field<'_, R>, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
-        None
-    }
-
     /// The derivative of the kernel: `analytic`.
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R>;
 
@@ -135,18 +108,39 @@ pub(super) trait Interpolant<R: Real>: Sync {
     }
 }
 
-/// A field with the kernel that it is sampled with.
+/// A field that is sampled trilinearly, whatever its kernel. Loops over samples are compiled for it apart: eight voxels
+/// are read so quickly that decisions and calls at each sample would take most of the time.
 #[derive(Clone, Copy)]
-pub struct Sampled<'f, 'v, R, K> {
-    field: &'f Field<'v, R>,
-    kernel: K,
-}
+pub struct TrilinearSampler<'f, 'v, R>(pub(super) &'f Field<'v, R>);
 
-impl<'f, 'v, R: Real, K> Sampled<'f, 'v, R, K> {
-    pub(super) fn new(field: &'f Field<'v, R>, kernel: K) -> Self {
-        Self { field, kernel }
-    }
+/// Runs an expression with a field's kernel bound to a name; it is compiled for each kernel.
+macro_rules! with_kernel {
+    ($field:expr, |$kernel:ident| $body:expr) => {
+        match &$field.kernel {
+            KernelData::Trilinear => {
+                let $kernel = Trilinear;
+                $body
+            }
+            KernelData::Bspline(coefficients) => {
+                let $kernel = Bspline(coefficients);
+                $body
+            }
+            KernelData::BsplineSmooth => {
+                let $kernel = BsplineSmooth;
+                $body
+            }
+            KernelData::Bspline5(coefficients) => {
+                let $kernel = Bspline5(coefficients);
+                $body
+            }
+            KernelData::CatmullRom => {
+                let $kernel = CatmullRom;
+                $body
+            }
+        }
+    };
 }
+pub(super) use with_kernel;
 
 impl<R: Real> Field<'_, R> {
     /// The gradient of the numbers along the index axes by an estimator that is the same for every kernel.
@@ -171,153 +165,187 @@ impl<R: Real> Field<'_, R> {
             _ => (gradient::central::gradient(self, at), hessian::central::hessian(self, at)),
         }
     }
-}
 
-/// The number at a place, before slope and intercept.
-#[inline(always)]
-pub(super) fn number<R: Real, K: Interpolant<R>>(sampled: &Sampled<'_, '_, R, K>, at: Place<R>) -> R {
-    sampled.kernel.value(sampled.field, at)
-}
-
-/// The gradient of the numbers along the index axes; by an estimator that is the same for every kernel, as `estimated` says.
-#[inline(always)]
-pub(super) fn index_gradient<'f, 'v, R: Real, K: Interpolant<R>>(
-    sampled: &Sampled<'f, 'v, R, K>,
-    at: Place<R>,
-    estimated: impl Fn(&'f Field<'v, R>, Place<R>) -> Vec3<R>,
-) -> Vec3<R> {
-    match sampled.field.how.gradient {
-        GradientEstimator::Analytic => sampled.kernel.gradient(sampled.field, at),
-        _ => estimated(sampled.field, at),
-    }
-}
-
-/// Gradient and Hessian of the numbers along the index axes, likewise.
-#[inline(always)]
-pub(super) fn index_second<'f, 'v, R: Real, K: Interpolant<R>>(
-    sampled: &Sampled<'f, 'v, R, K>,
-    at: Place<R>,
-    estimated: impl Fn(&'f Field<'v, R>, Place<R>) -> (Vec3<R>, Sym3<R>),
-) -> (Vec3<R>, Sym3<R>) {
-    match sampled.field.second {
-        Second::Analytic => sampled.kernel.second(sampled.field, at),
-        _ => estimated(sampled.field, at),
-    }
-}
-
-impl<R: Real, K: Interpolant<R>> Sampler<R> for Sampled<'_, '_, R, K> {
-    #[inline(always)]
-    fn place(&self, p: Vec3<R>) -> Place<R> {
-        self.field.cells.locate(p)
-    }
-
-    #[inline(always)]
-    fn value_at(&self, at: Place<R>) -> R {
-        self.field.to_value(number(self, at))
-    }
-
-    const AT_ONCE: usize = K::AT_ONCE;
-
-    #[inline(always)]
-    fn values(&self, position: impl Fn(usize) -> Vec3<R>, values: &mut [R]) {
-        self.kernel.values(self.field, |i| self.field.cells.locate(position(i)), values);
-        for value in values {
-            *value = self.field.to_value(*value);
+    /// The gradient of the numbers along the index axes. It is compiled once for each number type.
+    #[inline(never)]
+    pub(super) fn index_gradient(&self, at: Place<R>) -> Vec3<R> {
+        match self.how.gradient {
+            GradientEstimator::Analytic => with_kernel!(self, |kernel| kernel.gradient(self, at)),
+            _ => self.estimated_gradient(at),
         }
     }
 
-    #[inline(always)]
-    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
-        self.field.to_world.apply(index_gradient(self, at, Field::estimated_gradient))
-    }
-
-    #[inline(always)]
-    fn corners(&self, cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
-        let read = self.kernel.corners(self.field, cell)?;
-        Some(read.map(|row| row.map(|c| self.field.to_value(c))))
-    }
-
-    #[inline]
-    fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
-        let [x, y, z] = voxel;
-        match gradient::at_voxel(self.field, x, y, z) {
-            Some(index) => self.field.to_world.apply(index),
-            None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
+    /// Gradient and Hessian of the numbers along the index axes. They are compiled once for each number type.
+    #[inline(never)]
+    pub(super) fn index_second(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+        match self.second {
+            Second::Analytic => with_kernel!(self, |kernel| kernel.second(self, at)),
+            _ => self.estimated_second(at),
         }
     }
 
-    fn voxel_squares(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) {
-        if self.field.integer_squares([y, z], squares) {
+    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`Sampler::voxel_gradient`] with itself. `rows` is working
+    /// memory, and `squares` is as long as the row.
+    ///
+    /// # Panics
+    /// See [`Sampler::voxel_gradient`].
+    pub(crate) fn voxel_squares(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) {
+        if self.integer_squares([y, z], squares) {
             return;
         }
         let square = |x| {
             let gradient = self.voxel_gradient([x, y, z]);
             gradient.dot(gradient)
         };
-        if self.field.squares_inside([y, z], rows, squares) {
+        if self.squares_inside([y, z], rows, squares) {
             let last = squares.len() - 1;
             (squares[0], squares[last]) = (square(0), square(last));
         } else {
             squares.iter_mut().enumerate().for_each(|(x, at)| *at = square(x));
         }
     }
+}
+
+impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
+    #[inline(always)]
+    fn place(&self, p: Vec3<R>) -> Place<R> {
+        self.0.cells.locate(p)
+    }
+
+    #[inline(always)]
+    fn value_at(&self, at: Place<R>) -> R {
+        self.0.to_value(Trilinear.value(self.0, at))
+    }
+
+    #[inline(always)]
+    fn at_once(&self) -> usize {
+        Trilinear::AT_ONCE
+    }
+
+    #[inline(always)]
+    fn values(&self, position: impl Fn(usize) -> Vec3<R>, values: &mut [R]) {
+        let field = self.0;
+        Trilinear::values(field, |i| field.cells.locate(position(i)), values);
+        for value in values {
+            *value = field.to_value(*value);
+        }
+    }
+
+    #[inline(always)]
+    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
+        let index = match self.0.how.gradient {
+            GradientEstimator::Analytic => Trilinear.gradient(self.0, at),
+            _ => self.0.estimated_gradient(at),
+        };
+        self.0.to_world.apply(index)
+    }
+
+    #[inline(always)]
+    fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
+        self.0.voxel_gradient(voxel)
+    }
+
+    #[inline(always)]
+    fn corners(&self, cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
+        let field = self.0;
+        let mut corners = Trilinear::corners(field, cell);
+        for c in corners.as_flattened_mut() {
+            *c = field.to_value(*c);
+        }
+        Some(corners)
+    }
 
     #[inline(always)]
     fn has_one_gradient(&self) -> bool {
-        self.field.has_one_gradient()
+        self.0.has_one_gradient()
     }
 
-    #[inline]
+    #[inline(always)]
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        let (gradient, hessian) = index_second(self, at, Field::estimated_second);
-        (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
+        self.0.hessian_at(at)
     }
 }
 
-/// A field decides on its kernel at every call. That is slower than its [`Sampled`], and one type for fields of any kernel.
+/// A field decides on its kernel at every call. That is slower than a [`TrilinearSampler`], and one type for fields of any
+/// kernel.
 impl<R: Real> Sampler<R> for Field<'_, R> {
-    #[inline]
+    #[inline(always)]
     fn place(&self, p: Vec3<R>) -> Place<R> {
         self.cells.locate(p)
     }
 
-    #[inline]
+    #[inline(never)]
     fn value_at(&self, at: Place<R>) -> R {
-        with_sampler!(self, |s| s.value_at(at))
+        match &self.formula {
+            Some(exact) => R::from_f64(exact.value_at(at.to_f64())),
+            None => self.to_value(with_kernel!(self, |kernel| kernel.value(self, at))),
+        }
+    }
+
+    #[inline]
+    fn at_once(&self) -> usize {
+        if self.is_trilinear() { Trilinear::AT_ONCE } else { 1 }
+    }
+
+    #[inline]
+    fn values(&self, position: impl Fn(usize) -> Vec3<R>, values: &mut [R]) {
+        if self.is_trilinear() {
+            return self.trilinear().values(position, values);
+        }
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = self.value(position(i));
+        }
     }
 
     #[inline]
     fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
-        with_sampler!(self, |s| s.gradient_at(at))
+        match &self.formula {
+            Some(exact) => Vec3::from_glam(exact.gradient_at(at.to_f64()).to_glam()),
+            None => self.to_world.apply(self.index_gradient(at)),
+        }
+    }
+
+    #[inline]
+    fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
+        let [x, y, z] = voxel;
+        match gradient::at_voxel(self, x, y, z) {
+            Some(index) => self.to_world.apply(index),
+            None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
+        }
+    }
+
+    #[inline]
+    fn corners(&self, cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
+        if self.is_trilinear() { self.trilinear().corners(cell) } else { None }
+    }
+
+    #[inline(always)]
+    fn has_one_gradient(&self) -> bool {
+        self.has_one_gradient()
     }
 
     #[inline]
     fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
-        with_sampler!(self, |s| s.hessian_at(at))
-    }
-
-    #[inline]
-    fn has_one_gradient(&self) -> bool {
-        self.has_one_gradient()
+        if let Some(exact) = &self.formula {
+            let (g, Sym3 { xx, xy, xz, yy, yz, zz }) = exact.hessian_at(at.to_f64());
+            let [xx, xy, xz, yy, yz, zz] = [xx, xy, xz, yy, yz, zz].map(R::from_f64);
+            return (Vec3::from_glam(g.to_glam()), Sym3 { xx, xy, xz, yy, yz, zz });
+        }
+        let (gradient, hessian) = self.index_second(at);
+        (self.to_world.apply(gradient), self.to_world_hessian(hessian))
     }
 }
 
-/// The sampler of one of the five kernels; [`with_sampler!`](crate::with_sampler) opens it.
+/// The sampler of a field: compiled apart for the trilinear kernel. [`with_sampler!`](crate::with_sampler) opens it.
 pub enum AnySampler<'f, 'v, R> {
     /// Trilinear.
-    Trilinear(Sampled<'f, 'v, R, Trilinear>),
-    /// Cubic B-spline, prefiltered.
-    Bspline(Sampled<'f, 'v, R, Bspline<'f, R>>),
-    /// Cubic B-spline on the voxels.
-    BsplineSmooth(Sampled<'f, 'v, R, BsplineSmooth>),
-    /// Quintic B-spline, prefiltered.
-    Bspline5(Sampled<'f, 'v, R, Bspline5<'f, R>>),
-    /// Catmull–Rom.
-    CatmullRom(Sampled<'f, 'v, R, CatmullRom>),
+    Trilinear(TrilinearSampler<'f, 'v, R>),
+    /// Any kernel.
+    Any(&'f Field<'v, R>),
 }
 
-/// Runs an expression with a reference to a field's sampler bound to a name. The kernel is decided here, once, and the
-/// expression is compiled for each kernel.
+/// Runs an expression with a reference to a field's sampler bound to a name. The expression is compiled twice: for the
+/// trilinear kernel, and for a field that decides on its kernel at every call.
 ///
 /// ```
 /// use drypoint_reference::field::{Field, Reconstruction, Rung, Sampler};
@@ -335,10 +363,7 @@ macro_rules! with_sampler {
     ($field:expr, |$sampler:ident| $body:expr) => {
         match $field.sampler() {
             $crate::field::AnySampler::Trilinear(ref $sampler) => $body,
-            $crate::field::AnySampler::Bspline(ref $sampler) => $body,
-            $crate::field::AnySampler::BsplineSmooth(ref $sampler) => $body,
-            $crate::field::AnySampler::Bspline5(ref $sampler) => $body,
-            $crate::field::AnySampler::CatmullRom(ref $sampler) => $body,
+            $crate::field::AnySampler::Any($sampler) => $body,
         }
     };
 }

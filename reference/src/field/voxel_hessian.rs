@@ -2,7 +2,6 @@
 
 use super::{Field, Sampler, Second};
 use crate::number::{Real, Sym3, Vec3};
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
@@ -23,7 +22,7 @@ impl Field<'_, f64> {
             Some((gradient, hessian)) => (self.to_world.apply(gradient), self.to_world_hessian(hessian)),
             None => {
                 let at = Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)));
-                with_sampler!(self, |s| s.hessian(at))
+                self.hessian(at)
             }
         }
     }
@@ -125,7 +124,7 @@ mod tests {
                     for i in 0..grid.len() {
                         let voxel = [i % dims[0], i / dims[0] % dims[1], i / dims[0] / dims[1]];
                         let at = Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)));
-                        let (g, h) = with_sampler!(field, |s| s.hessian(at));
+                        let (g, h) = field.hessian(at);
                         let (g0, h0) = field.voxel_hessian(voxel);
                         let entries = |h: Sym3<f64>| [h.xx, h.xy, h.xz, h.yy, h.yz, h.zz];
                         let pairs = entries(h).into_iter().zip(entries(h0));

@@ -1,7 +1,6 @@
 //! Numbers that the sample code is generic over: f64, the truth, and f32, for the price list ([PREC-1]).
 
 mod arithmetic;
-#[cfg(any(test, feature = "bounds"))]
 mod bounded;
 mod decision;
 pub(crate) mod lanes;
@@ -9,12 +8,10 @@ mod mat3;
 mod real;
 mod sym3;
 mod vec3;
-#[cfg(any(test, feature = "bounds"))]
 pub mod ways;
 
 pub(crate) use arithmetic::Double;
 pub use arithmetic::{Arithmetic, Elementary, Mask};
-#[cfg(any(test, feature = "bounds"))]
 pub use bounded::Bounded;
 pub use decision::Decision;
 pub use mat3::Mat3;

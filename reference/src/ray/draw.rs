@@ -10,8 +10,8 @@ use super::tile_work::{CastAll, TileRays, TileWork};
 use crate::number::Real;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::parallel;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
-use rayon::prelude::*;
 use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -114,7 +114,7 @@ pub(super) fn draw<R: Real>(
     for first in (0..across * down).step_by(batch) {
         let batch = first..(first + batch).min(across * down);
         let share = [first, batch.end].map(|tile| tile as f64 / (across * down) as f64);
-        let mut cast_before = match casting {
+        let cast_before = match casting {
             Casting::ByTile(_) => Vec::new(),
             Casting::ByBand(cast) => {
                 let rows = [first, batch.end].map(|tile_index| (tile_index / across * tile).min(height) * n);
@@ -122,7 +122,7 @@ pub(super) fn draw<R: Real>(
                 cast(Band { tiles: batch.clone(), region, share })
             }
         };
-        let draw = |t: usize, cast_before: Option<&mut (Vec<Cast>, Counts)>| {
+        let draw = |t: usize, cast_before: Option<(Vec<Cast>, Counts)>| {
             let place = TilePlace::new(prepared, t, tile);
             match (casting, cast_before) {
                 (Casting::ByTile(cast_all), None) => {
@@ -132,7 +132,7 @@ pub(super) fn draw<R: Real>(
                     drawn
                 }
                 (_, before) => {
-                    let (casts, counts) = before.map(std::mem::take).unwrap_or_default();
+                    let (casts, counts) = before.unwrap_or_default();
                     let casts = Mutex::new(casts.into_iter());
                     let take = |work: TileWork<'_>| {
                         let mut casts = casts.lock().unwrap_or_else(PoisonError::into_inner);
@@ -145,9 +145,9 @@ pub(super) fn draw<R: Real>(
             }
         };
         let tiles: Vec<TilePixels> = if cast_before.is_empty() {
-            batch.into_par_iter().map(|t| draw(t, None)).collect()
+            parallel::map(batch.len(), &|t| draw(first + t, None))
         } else {
-            batch.into_par_iter().zip(&mut cast_before).map(|(t, casts)| draw(t, Some(casts))).collect()
+            parallel::map_of(cast_before, &|t, casts| draw(first + t, Some(casts)))
         };
         // The buffers of a band take the place of the last one's.
         let mut of_batch = Counts::default();
@@ -224,16 +224,12 @@ pub(super) fn behind(background: Backdrop<'_>, width: usize) -> impl Fn([usize; 
 }
 
 /// The rays of the tiles of a band, each tile's in the order in which [`draw`] asks for them.
-pub(super) fn rays_of_tiles<'p, R: Real>(
-    prepared: &'p Prepared<'_, R>,
-    side: usize,
-    band: &Band,
-) -> impl IndexedParallelIterator<Item = TileRays> + use<'p, R> {
+pub(super) fn rays_of_tiles<R: Real>(prepared: &Prepared<'_, R>, side: usize, band: &Band) -> Vec<TileRays> {
     let n = prepared.rays_across;
     let whole = in_blocks([side; 2]);
     let [left, top] = band.region.first;
-    band.tiles.clone().into_par_iter().map(move |index| {
-        let place = TilePlace::new(prepared, index, side);
+    parallel::map(band.tiles.len(), &|index| {
+        let place = TilePlace::new(prepared, band.tiles.start + index, side);
         let blocks = blocks_of(place.size, &whole);
         let parts = || (0..n * n).flat_map(|part| blocks.iter().map(move |&pixel| (pixel, part)));
         let ray = |([i, j], part): ([usize; 2], usize)| {

@@ -1,6 +1,5 @@
 //! Casting rays through the field.
 
-#[cfg(any(test, feature = "bounds"))]
 pub mod bounds;
 pub mod brick_occupancy;
 mod cell_mask;

@@ -3,7 +3,7 @@
 use super::composite::{RayState, Step};
 use super::prepared::Prepared;
 use super::sample::need::Anything;
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::labels::Labels;
 use crate::mesh::MeshHit;
 use crate::number::{Real, Vec3};
@@ -70,9 +70,8 @@ impl Candidate {
 /// converge to a place on the ray as the step becomes smaller.
 ///
 /// Lines inside the picture are passed over. Returns none if the ray sees nothing, or if the point is outside the picture.
-pub(super) fn pick<R: Real, S: Sampler<R>>(
+pub(super) fn pick<R: Real>(
     prepared: &Prepared<'_, R>,
-    sampler: &S,
     labels: Option<&Labels<'_>>,
     point: [f64; 2],
 ) -> Option<Picked> {
@@ -80,7 +79,7 @@ pub(super) fn pick<R: Real, S: Sampler<R>>(
     if !(is_inside(0) && is_inside(1)) {
         return None;
     }
-    let mut state = RayState::new(prepared, sampler, point);
+    let mut state = RayState::new(prepared, &prepared.object.field, point);
     let mut steps = Vec::new();
     let mut counts = Counts::default();
     state.path_among((point, &[]), None, &mut steps, &mut counts);
@@ -104,7 +103,7 @@ pub(super) fn pick<R: Real, S: Sampler<R>>(
     heaviest.map(|(candidate, [_, opacity])| state.picked(candidate, opacity, labels))
 }
 
-impl<R: Real, S: Sampler<R>> RayState<'_, '_, R, S> {
+impl<'v, R: Real> RayState<'_, 'v, R, Field<'v, R>> {
     /// Describes a candidate.
     fn picked(&mut self, candidate: Candidate, opacity: f64, labels: Option<&Labels<'_>>) -> Picked {
         let of_object = match candidate {

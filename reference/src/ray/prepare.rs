@@ -11,11 +11,10 @@ use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
 use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, Shader};
-use crate::field::{Field, Reconstruction, Rung, Sampler, quantile_of_norms};
+use crate::field::{Field, Reconstruction, Rung, quantile_of_norms};
 use crate::labels::Labels;
 use crate::number::{Mat3, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise, gate};
-use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::LayerKind;
@@ -145,7 +144,7 @@ impl<'a, R: Real> Fields<'a, R> {
         if let Some((.., known)) = known {
             return Some(*known);
         }
-        let found = with_sampler!(field, |s| gradient_range(s, field, range, object, counts));
+        let found = gradient_range(field, range, counts);
         self.ranges.push((volume, range, found));
         Some(found)
     }
@@ -305,19 +304,12 @@ fn skip<R: Real>(bricks: &Bricks, object: &Object, inputs: &Inputs<'_>) -> Brick
 }
 
 /// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].
-pub(super) fn gradient_range<R: Real, S: Sampler<R>>(
-    sampler: &S,
-    field: &Field<'_, R>,
-    range: GradientRange,
-    object: &Object,
-    counts: &mut Counts,
-) -> (R, R) {
+pub(super) fn gradient_range<R: Real>(field: &Field<'_, R>, range: GradientRange, counts: &mut Counts) -> (R, R) {
     let scaled = |g: f64| drypoint_scene::math::scale_by_power_of_two(g, -field.scale_exponent());
     let [lo, hi] = match range {
         GradientRange::Fixed(range) => range.map(scaled),
         GradientRange::Quantile(q) => {
-            let estimator = object.reconstruction.gradient;
-            let (hi, voxels) = quantile_of_norms(sampler, field.volume(), estimator, field.no_normal_below(), q);
+            let (hi, voxels) = quantile_of_norms(field, q);
             counts.preprocess.insert("gradients".into(), voxels);
             [0.0, hi]
         }

@@ -15,6 +15,7 @@ use crate::volumeshop::{FunnelMap, Memberships, guard};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::parallel;
 use drypoint_scene::shot::{
     Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Membership, Part, Role, SelectionParams,
     placed,
@@ -22,7 +23,6 @@ use drypoint_scene::shot::{
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Anatomy, Bricks, Volume};
-use rayon::prelude::*;
 
 /// Objects ready for samples.
 pub(super) struct PreparedCombination<'v, R> {
@@ -204,7 +204,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             let depths: Vec<f64> = (0..width).map(depth).collect();
             (depths, counts)
         };
-        let rows: Vec<(Vec<f64>, Counts)> = (0..height).into_par_iter().map(row).collect();
+        let rows: Vec<(Vec<f64>, Counts)> = parallel::map(height, &row);
         let mut depths = Vec::with_capacity(width * height);
         for (row, own) in rows {
             depths.extend(row);

@@ -12,8 +12,8 @@ use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 use drypoint_scene::color::{Rgba, linear_to_srgb};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::parallel;
 use drypoint_scene::picture::{LayerKind, Picture};
-use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Rays across a refined pixel.
@@ -71,7 +71,7 @@ pub(super) fn draw_refined<R: Real>(
             progress(0.5 + 0.5 * (1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / tiles as f64);
             refined
         };
-        let refined: Vec<RefinedTile> = (from..tiles.min(from + batch)).into_par_iter().map(refine).collect();
+        let refined = parallel::map(tiles.min(from + batch) - from, &|tile| refine(from + tile));
         for tile in refined {
             counts.add(&tile.counts);
             let channels = picture.layers.iter_mut().filter(|layer| is_refined(layer.kind));
@@ -189,7 +189,7 @@ fn pixels_at_edges(beauty: &[Vec<f64>], [width, height]: [usize; 2], contrast: f
     const CHUNK: usize = 1 << 14;
     let rows = (CHUNK / width).max(1);
     let mut at_edges = vec![false; width * height];
-    at_edges.par_chunks_mut(rows * width).enumerate().for_each(|(chunk, at_edges)| {
+    parallel::chunks_mut(&mut at_edges, rows * width, &|chunk, at_edges| {
         // The rows of the chunk, and one more above and below.
         let top = (chunk * rows).saturating_sub(1);
         let bottom = (chunk * rows + rows + 1).min(height);

@@ -11,7 +11,7 @@ use super::prepare::{gradient_range, measured, prepare, turn};
 use super::prepared::Prepared;
 use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
-use crate::field::{Exact, Sampler};
+use crate::field::Sampler;
 use crate::labels::Labels;
 use crate::number::Real;
 use crate::with_sampler;
@@ -57,7 +57,6 @@ enum Order {
 enum Ready<'a> {
     F64(Box<Prepared<'a, f64>>),
     F32(Box<Prepared<'a, f32>>),
-    Exact(Box<Prepared<'a, f64>>, &'a dyn Phantom),
 }
 
 impl<'a> Renderer<'a> {
@@ -97,12 +96,12 @@ impl<'a> Renderer<'a> {
         if let Some(halos) = &mut prepared.halos {
             halos.skip = None;
         }
-        let exact = Exact::new(phantom, inputs.volume.grid(), prepared.object.field.scale_exponent());
-        let ([object], field) = (&shot.objects, &prepared.object.field);
+        prepared.object.field = prepared.object.field.with_formula(phantom);
+        let [object] = &shot.objects;
         if let Some(range) = object.gradient_range {
-            prepared.object.gradient_range = Some(gradient_range(&exact, field, range, object, &mut counts));
+            prepared.object.gradient_range = Some(gradient_range(&prepared.object.field, range, &mut counts));
         }
-        Ok(Self::of(Ready::Exact(Box::new(prepared), phantom), shot, &inputs, counts, start))
+        Ok(Self::of(Ready::F64(Box::new(prepared)), shot, &inputs, counts, start))
     }
 
     fn of(ready: Ready<'a>, shot: &Shot, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
@@ -148,7 +147,7 @@ impl<'a> Renderer<'a> {
             p.refine_above.map_or(0, |_| bytes_a_pixel(&p.layers))
         }
         match &self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => of(p),
+            Ready::F64(p) => of(p),
             Ready::F32(p) => of(p),
         }
     }
@@ -156,7 +155,7 @@ impl<'a> Renderer<'a> {
     /// n of the n×n rays of a pixel, before it is refined.
     pub fn rays_across(&self) -> usize {
         match &self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => p.rays_across,
+            Ready::F64(p) => p.rays_across,
             Ready::F32(p) => p.rays_across,
         }
     }
@@ -167,22 +166,21 @@ impl<'a> Renderer<'a> {
             samples_in(&p.lattice, &p.view, p.object.volume.grid()) * (p.rays_across * p.rays_across) as f64
         }
         match &self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => of(p),
+            Ready::F64(p) => of(p),
             Ready::F32(p) => of(p),
         }
     }
 
     /// Bytes that a frame with halos needs beside its picture; 0 without halos.
     pub fn bytes_of_halos(&self) -> u64 {
-        fn of<R: Real, S: Sampler<R>>(p: &Prepared<'_, R>, _: &S, [tile, band]: [usize; 2]) -> u64 {
+        fn of<R: Real>(p: &Prepared<'_, R>, [tile, band]: [usize; 2]) -> u64 {
             let Some(halos) = &p.halos else { return 0 };
-            plane_order::bytes_with_halos::<R, S>(p, halos, largest_band(p, tile, band))
+            plane_order::bytes_with_halos(p, halos, largest_band(p, tile, band))
         }
         let sides = [self.tile, self.band];
         match &self.ready {
-            Ready::F64(p) => with_sampler!(p.object.field, |s| of(p, s, sides)),
-            Ready::F32(p) => with_sampler!(p.object.field, |s| of(p, s, sides)),
-            Ready::Exact(p, phantom) => of(p, &exact_sampler(p, *phantom), sides),
+            Ready::F64(p) => of(p, sides),
+            Ready::F32(p) => of(p, sides),
         }
     }
 
@@ -197,7 +195,7 @@ impl<'a> Renderer<'a> {
     /// Sample planes that fall together, seen from there.
     pub fn turn(&mut self, shot: &Shot) -> Result<(), RenderError> {
         match &mut self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => turn(p, shot),
+            Ready::F64(p) => turn(p, shot),
             Ready::F32(p) => turn(p, shot),
         }
     }
@@ -205,7 +203,7 @@ impl<'a> Renderer<'a> {
     /// Puts lines inside the frames that follow, or takes them out: those of the camera that is there ([HATCH-14] d).
     pub fn merge(&mut self, lines: Option<Fragments>) {
         match &mut self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => p.lines = lines,
+            Ready::F64(p) => p.lines = lines,
             Ready::F32(p) => p.lines = lines,
         }
     }
@@ -213,7 +211,7 @@ impl<'a> Renderer<'a> {
     /// The facts that another renderer of the same shot needs: those of the volume, then those of each part's.
     pub fn measured(&self, shot: &Shot) -> Vec<Measured> {
         match &self.ready {
-            Ready::F64(p) | Ready::Exact(p, _) => measured(p, shot),
+            Ready::F64(p) => measured(p, shot),
             Ready::F32(p) => measured(p, shot),
         }
     }
@@ -235,8 +233,7 @@ impl<'a> Renderer<'a> {
         let start = Instant::now();
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
-            Ready::F32(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
-            Ready::Exact(p, phantom) => self.draw(p, &exact_sampler(p, *phantom), progress),
+            Ready::F32(p) => self.draw(p, &p.object.field, progress),
         };
         counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
@@ -253,9 +250,8 @@ impl<'a> Renderer<'a> {
     pub fn pick(&self, point: [f64; 2]) -> Option<Picked> {
         let labels = self.labels.as_ref();
         match &self.ready {
-            Ready::F64(p) => with_sampler!(p.object.field, |s| pick(p, s, labels, point)),
-            Ready::F32(p) => with_sampler!(p.object.field, |s| pick(p, s, labels, point)),
-            Ready::Exact(p, phantom) => pick(p, &exact_sampler(p, *phantom), labels, point),
+            Ready::F64(p) => pick(p, labels, point),
+            Ready::F32(p) => pick(p, labels, point),
         }
     }
 
@@ -300,10 +296,4 @@ impl<'a> Renderer<'a> {
             }
         }
     }
-}
-
-/// The sampler of a phantom's own formula.
-fn exact_sampler<'a>(prepared: &'a Prepared<'_, f64>, phantom: &'a dyn Phantom) -> Exact<'a> {
-    let object = &prepared.object;
-    Exact::new(phantom, object.volume.grid(), object.field.scale_exponent())
 }

@@ -1,9 +1,9 @@
 //! The content of a volume as runs of voxels, which a camera frames and on which an object stands.
 
+use drypoint_scene::parallel;
 use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
-use rayon::prelude::*;
 
 /// Connected parts with less than this share of the largest part's solid voxels are not framed, such as specks and
 /// head rests.
@@ -90,27 +90,23 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: ContentRange) -> Vec<Vec<Voxel
             && (z == 0 || shown(x, y, z - 1))
             && (z + 1 == nz || shown(x, y, z + 1))
     };
-    (0..ny * nz)
-        .into_par_iter()
-        .map(|row| {
-            let (y, z) = (row % ny, row / ny);
-            let mut runs: Vec<VoxelRun> = Vec::new();
-            for x in (0..nx).filter(|&x| shown(x, y, z)) {
-                match runs.last_mut() {
-                    Some(run) if run.last + 1 == x => run.last = x,
-                    _ => runs.push(VoxelRun { first: x, last: x, y, z, solid: 0.0 }),
-                }
+    parallel::map(ny * nz, &|row| {
+        let (y, z) = (row % ny, row / ny);
+        let mut runs: Vec<VoxelRun> = Vec::new();
+        for x in (0..nx).filter(|&x| shown(x, y, z)) {
+            match runs.last_mut() {
+                Some(run) if run.last + 1 == x => run.last = x,
+                _ => runs.push(VoxelRun { first: x, last: x, y, z, solid: 0.0 }),
             }
-            for run in &mut runs {
-                let inner =
-                    if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
-                let whole = inner.filter(|&x| solid(x, y, z)).count();
-                // Thin parts have no solid voxels. Their length decides among them.
-                run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
-            }
-            runs
-        })
-        .collect()
+        }
+        for run in &mut runs {
+            let inner = if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
+            let whole = inner.filter(|&x| solid(x, y, z)).count();
+            // Thin parts have no solid voxels. Their length decides among them.
+            run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
+        }
+        runs
+    })
 }
 
 /// The runs of connected parts that are not small compared with the largest. Voxels that share a corner are

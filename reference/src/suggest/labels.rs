@@ -1,8 +1,8 @@
 //! Distinction of label volumes from scans and simulations.
 
+use drypoint_scene::parallel;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
-use rayon::prelude::*;
 
 /// Least share of neighbouring pairs of ids that are equal.
 const EQUAL: f64 = 0.7;
@@ -62,26 +62,24 @@ fn count<A: Access>(volume: &Volume, a: A) -> NeighbourCounts {
         out.extend((0..nx).map(|x| slope * a.at(x, y, z).to_f64() + intercept));
     };
     // Sums of integers do not depend on the order of the parts.
-    (0..nz)
-        .into_par_iter()
-        .map(|z| {
-            let mut rows = NeighbourCounts::default();
-            let [mut here, mut next, mut last] = [const { Vec::new() }; 3];
-            for y in 0..ny {
-                row(y, z, &mut here);
-                here.windows(3).for_each(|v| rows.add([v[0], v[1], v[2]]));
-                for (along_y, inside) in [(true, y + 2 < ny), (false, z + 2 < nz)] {
-                    if inside {
-                        let beyond = |i: usize| if along_y { (y + i, z) } else { (y, z + i) };
-                        row(beyond(1).0, beyond(1).1, &mut next);
-                        row(beyond(2).0, beyond(2).1, &mut last);
-                        (0..nx).for_each(|x| rows.add([here[x], next[x], last[x]]));
-                    }
+    let slices = parallel::map(nz, &|z| {
+        let mut rows = NeighbourCounts::default();
+        let [mut here, mut next, mut last] = [const { Vec::new() }; 3];
+        for y in 0..ny {
+            row(y, z, &mut here);
+            here.windows(3).for_each(|v| rows.add([v[0], v[1], v[2]]));
+            for (along_y, inside) in [(true, y + 2 < ny), (false, z + 2 < nz)] {
+                if inside {
+                    let beyond = |i: usize| if along_y { (y + i, z) } else { (y, z + i) };
+                    row(beyond(1).0, beyond(1).1, &mut next);
+                    row(beyond(2).0, beyond(2).1, &mut last);
+                    (0..nx).for_each(|x| rows.add([here[x], next[x], last[x]]));
                 }
             }
-            rows
-        })
-        .reduce(NeighbourCounts::default, NeighbourCounts::plus)
+        }
+        rows
+    });
+    slices.into_iter().fold(NeighbourCounts::default(), NeighbourCounts::plus)
 }
 
 #[cfg(test)]

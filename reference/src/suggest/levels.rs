@@ -1,11 +1,11 @@
 //! Statistics of the surface at each value, from one pass over the voxels.
 
 use drypoint_scene::math;
+use drypoint_scene::parallel;
 use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::histogram::Histogram;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
-use rayon::prelude::*;
 
 /// The surface at one value. Lengths and areas are in voxels and their faces, differences in shares of the range.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -186,7 +186,7 @@ fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> SliceShares + Sync) -
             sums
         })
     };
-    (0..nz.div_ceil(THICKNESS)).into_par_iter().flat_map_iter(part).collect()
+    parallel::gather(nz.div_ceil(THICKNESS), 1, &|parts, sums| parts.for_each(|i| sums.extend(part(i))))
 }
 
 impl Default for BinSums {
@@ -288,14 +288,13 @@ fn robust_range(volume: &Volume) -> [f64; 2] {
 fn one_value(volume: &Volume, [lo, hi]: [f64; 2]) -> bool {
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let [nx, ny, nz] = volume.dims();
-    let [least, most] = with_access!(volume, |a| (0..nz)
-        .into_par_iter()
-        .map(|z| {
-            let values = (0..nx * ny).map(|i| slope * a.at(i % nx, i / nx, z).to_f64() + intercept);
-            let between = values.filter(|value| (lo..=hi).contains(value));
-            between.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, m], value| [l.min(value), m.max(value)])
-        })
-        .reduce(|| [f64::INFINITY, f64::NEG_INFINITY], |[l, m], [v, w]| [l.min(v), m.max(w)]));
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    let slices = with_access!(volume, |a| parallel::map(nz, &|z| {
+        let values = (0..nx * ny).map(|i| slope * a.at(i % nx, i / nx, z).to_f64() + intercept);
+        let between = values.filter(|value| (lo..=hi).contains(value));
+        between.fold(none, |[l, m], value| [l.min(value), m.max(value)])
+    }));
+    let [least, most] = slices.into_iter().fold(none, |[l, m], [v, w]| [l.min(v), m.max(w)]);
     least >= most
 }
 

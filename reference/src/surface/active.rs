@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn blocks_are_as_their_bricks() {
         // 40 × 8 × 8 cells: 10 bricks a row, 3 blocks. One brick holds the value, at the closed end of its range.
-        let mut bricks = Bricks::new([41, 9, 9], |row| row.cells().map(|_| [0.0, 1.0]).collect());
+        let mut bricks = Bricks::new([41, 9, 9], &|row| row.cells().map(|_| [0.0, 1.0]).collect());
         bricks.ranges[5] = [2.0, 3.0];
         let active = ActiveBricks::new(&bricks, 2.0);
         assert_eq!(active.empty([20, 3, 0]), None);

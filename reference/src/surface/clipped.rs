@@ -2,7 +2,7 @@
 
 use super::RootFinder;
 use super::traversal::IndexLine;
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::tables::Outside;
@@ -27,46 +27,46 @@ pub(crate) struct Clipped<'c> {
 impl RootFinder {
     /// The first place in a closed range at which the line meets what planes leave: the surface, or a plane that cuts
     /// the inside of it open.
-    pub(crate) fn first_left<R: Real, S: Sampler<R>>(
+    pub(crate) fn first_left<R: Real>(
         &self,
-        sampler: &S,
+        field: &Field<'_, R>,
         mask: Option<&Mask>,
         line: IndexLine,
         range: [f64; 2],
         clipped: Clipped<'_>,
     ) -> Option<SurfaceHit> {
         if clipped.clip.is_empty() {
-            return self.first(sampler, mask, line, range).map(|t| SurfaceHit { t, cut: None });
+            return self.first(field, mask, line, range).map(|t| SurfaceHit { t, cut: None });
         }
         let kept = clipped.clip.kept(line, range)?;
         let [from, to] = kept.range;
-        if kept.entry.is_some() && self.is_inside(sampler, mask, line, from, clipped.outside) {
+        if kept.entry.is_some() && self.is_inside(field, mask, line, from, clipped.outside) {
             return Some(SurfaceHit { t: from, cut: kept.entry });
         }
         // The search goes on to the end of the whole range: planes behind a root change no bit of it.
-        let root = self.first(sampler, mask, line, [from, range[1]]);
+        let root = self.first(field, mask, line, [from, range[1]]);
         root.filter(|t| *t <= to).map(|t| SurfaceHit { t, cut: None })
     }
 
     /// Whether any part of the surface that planes leave lies on a line in a closed range, seen from its end.
-    pub(crate) fn is_left<R: Real, S: Sampler<R>>(
+    pub(crate) fn is_left<R: Real>(
         &self,
-        sampler: &S,
+        field: &Field<'_, R>,
         mask: Option<&Mask>,
         line: IndexLine,
         range: [f64; 2],
         clipped: Clipped<'_>,
     ) -> bool {
         let Some(kept) = clipped.clip.kept(line, range) else { return false };
-        let is_cut = |t: f64| self.is_inside(sampler, mask, line, t, clipped.outside);
-        self.first(sampler, mask, line, kept.range).is_some() || kept.exit.is_some() && is_cut(kept.range[1])
+        let is_cut = |t: f64| self.is_inside(field, mask, line, t, clipped.outside);
+        self.first(field, mask, line, kept.range).is_some() || kept.exit.is_some() && is_cut(kept.range[1])
     }
 
     /// Whether a place on a line is inside the surface, or on it. A place outside the box is not, nor is one in a cell
     /// that touches a masked voxel.
-    fn is_inside<R: Real, S: Sampler<R>>(
+    fn is_inside<R: Real>(
         &self,
-        sampler: &S,
+        field: &Field<'_, R>,
         mask: Option<&Mask>,
         [origin, along]: IndexLine,
         t: f64,
@@ -76,11 +76,11 @@ impl RootFinder {
         if !self.holds(index) {
             return false;
         }
-        let at = sampler.place(Vec3::from_glam(index));
+        let at = field.place(Vec3::from_glam(index));
         if mask.is_some_and(|mask| mask.touches_cell(at.cell)) {
             return false;
         }
-        let over = sampler.value_at(at).to_f64() - self.iso();
+        let over = field.value_at(at).to_f64() - self.iso();
         match outside {
             Outside::Low => over >= 0.0,
             Outside::High => over <= 0.0,

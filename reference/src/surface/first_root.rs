@@ -61,7 +61,7 @@ impl RootFinder {
         self.bounds.holds(index)
     }
 
-    /// Drops the ranges of bricks, for a sampler that they do not bound.
+    /// Drops the ranges of bricks, for a field that they do not bound.
     pub(crate) fn look_everywhere(&mut self) {
         self.active = None;
     }
@@ -73,9 +73,9 @@ impl RootFinder {
 
     /// The smallest t in a closed range at which the line has the value. Cells that touch a masked voxel contain no
     /// root ([PREC-2]).
-    pub(crate) fn first<R: Real, S: Sampler<R>>(
+    pub(crate) fn first<R: Real>(
         &self,
-        sampler: &S,
+        field: &Field<'_, R>,
         mask: Option<&Mask>,
         line: IndexLine,
         range: [f64; 2],
@@ -93,7 +93,7 @@ impl RootFinder {
                 before = None;
                 1
             } else {
-                match self.in_cell(sampler, &walk, length, before) {
+                match self.in_cell(field, &walk, length, before) {
                     CellSearch::Root(t) => return Some(t),
                     CellSearch::None { above } => before = Some(above),
                 }
@@ -105,15 +105,15 @@ impl RootFinder {
         }
     }
 
-    fn in_cell<R: Real, S: Sampler<R>>(
+    fn in_cell<R: Real>(
         &self,
-        sampler: &S,
+        field: &Field<'_, R>,
         walk: &CellTraversal,
         length: f64,
         before: Option<bool>,
     ) -> CellSearch {
         let [enters, leaves] = walk.range();
-        match sampler.corners(walk.cell()) {
+        match field.corners(walk.cell()) {
             Some(corners) => {
                 // Trilinear: f along the line is a cubic. Corners on one side of `iso` exclude a root without
                 // computing it.
@@ -135,8 +135,7 @@ impl RootFinder {
                 }
             }
             None => {
-                let value =
-                    |w: [f64; 3]| self.over(sampler.value_at(Place { cell: walk.cell(), w: w.map(R::from_f64) }));
+                let value = |w: [f64; 3]| self.over(field.value_at(Place { cell: walk.cell(), w: w.map(R::from_f64) }));
                 // Other kernels: equidistant values, and a bracketed root at the first change of sign.
                 let steps = (length * (leaves - enters) / STEP).ceil().max(1.0);
                 let (mut from, mut at_from) = (enters, value(walk.entry()));

@@ -4,7 +4,6 @@ use super::IsoSurface;
 use crate::field::Sampler;
 use crate::field::normal::outward;
 use crate::number::Vec3;
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 impl IsoSurface<'_, '_> {
@@ -32,7 +31,7 @@ impl IsoSurface<'_, '_> {
     /// outside the volume.
     pub fn normal(&self, index: DVec3) -> Option<DVec3> {
         let field = self.field;
-        let g = self.holds(index).then(|| with_sampler!(field, |sampler| sampler.gradient(Vec3::from_glam(index))))?;
+        let g = self.holds(index).then(|| field.gradient(Vec3::from_glam(index)))?;
         outward(g, field.reconstruction().outside, field.no_normal_below()).map(Vec3::to_glam)
     }
 }

@@ -24,7 +24,6 @@ pub(crate) use cubic::bracketed;
 pub(crate) use first_root::RootFinder;
 
 use crate::field::{Field, Rung, Sampler};
-use crate::with_sampler;
 use drypoint_scene::clip::{ClipPlanes, NO_PLANES};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::measured::Measured;
@@ -117,13 +116,13 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
     /// Like [`first_root`](Self::first_root), but in index space.
     pub fn first_root_in_index(&self, origin: DVec3, direction: DVec3, range: [f64; 2]) -> Option<f64> {
         let mask = self.field.volume().mask();
-        with_sampler!(self.field, |sampler| self.roots.first(sampler, mask, [origin, direction], range))
+        self.roots.first(self.field, mask, [origin, direction], range)
     }
 
     /// The value at a place in index space. Returns none outside the volume's box.
     fn value(&self, index: DVec3) -> Option<f64> {
         let at = crate::number::Vec3::from_glam(index);
-        self.holds(index).then(|| with_sampler!(self.field, |sampler| sampler.value(at)))
+        self.holds(index).then(|| self.field.value(at))
     }
 
     fn holds(&self, index: DVec3) -> bool {

@@ -79,7 +79,7 @@ fn brute_force(field: &Field<'_, f64>, iso: f64, [o, d]: [DVec3; 2], step: f64) 
     let over = |t: f64| {
         let p = o + d * t;
         let inside = p.cmpge(lo).all() && p.cmple(hi).all();
-        inside.then(|| with_sampler!(field, |s| s.value(Vec3::from_glam(p))) - iso)
+        inside.then(|| field.value(Vec3::from_glam(p)) - iso)
     };
     let (mut before, mut t) = (None, 0.0);
     while t < 140.0 {
@@ -164,7 +164,7 @@ fn the_first_root_is_that_of_the_interpolation() {
                     (Some(got), brute) => {
                         let [lo, hi] = field.volume().grid().index_box();
                         let p = (o + d * got).clamp(lo, hi);
-                        let off = with_sampler!(field, |s| s.value(Vec3::from_glam(p))) - iso;
+                        let off = field.value(Vec3::from_glam(p)) - iso;
                         assert!(off.abs() < 1e-12 && brute.is_none_or(|b| got < b), "{kernel:?} {got} {brute:?} {off}");
                     }
                     (None, None) => {}

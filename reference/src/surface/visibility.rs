@@ -1,7 +1,6 @@
 //! Visibility of points in front of or behind an opaque iso-surface ([HATCH-14], [STIP-15]).
 
 use super::{Clipped, IsoSurface};
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::tables::Outside;
 use drypoint_scene::view::View;
@@ -26,7 +25,7 @@ impl IsoSurface<'_, '_> {
             return self.first_root(origin, direction, range).is_some();
         }
         let (line, mask) = (self.index_line(origin, direction), self.field().volume().mask());
-        with_sampler!(self.field(), |sampler| self.roots.first_left(sampler, mask, line, range, self.cut()).is_some())
+        self.roots.first_left(self.field(), mask, line, range, self.cut()).is_some()
     }
 
     /// Like [`meets`](Self::meets), for a line that runs towards the eye.
@@ -35,7 +34,7 @@ impl IsoSurface<'_, '_> {
             return self.first_root(origin, direction, range).is_some();
         }
         let (line, mask) = (self.index_line(origin, direction), self.field().volume().mask());
-        with_sampler!(self.field(), |sampler| self.roots.is_left(sampler, mask, line, range, self.cut()))
+        self.roots.is_left(self.field(), mask, line, range, self.cut())
     }
 
     fn index_line(&self, origin: DVec3, direction: DVec3) -> [DVec3; 2] {

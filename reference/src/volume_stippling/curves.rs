@@ -3,15 +3,14 @@
 use super::StippleError;
 use crate::field::{Field, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::Vec3;
-use crate::with_sampler;
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::parallel;
 use drypoint_scene::points::PointVoxel;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Curves, CurvesTest, Outside};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Volume, Voxels};
-use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// ‖n × E‖ below which a segment's direction is undefined.
@@ -83,19 +82,19 @@ impl CurveVoxels {
         let voxels: Vec<PointVoxel> = voxels.iter().filter(|voxel| voxel.magnitude > curves.grad).copied().collect();
         let logs = laplacians(&within(volume, range), &voxels)?;
         let field = smoothed(volume, outside)?;
-        let voxels = with_sampler!(field, |sampler| {
-            let edge = |(voxel, log): (&PointVoxel, &f64)| {
-                let (g, h) = at(sampler, voxel.cell);
-                let length = g.length();
-                (voxel.value * log < curves.log && length > 0.0).then(|| {
-                    let n = g / length;
-                    let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-                    let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
-                    let turning = project * h * (sign / length);
-                    CurveVoxel { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
-                })
-            };
-            voxels.par_iter().zip(&logs).filter_map(edge).collect()
+        let edge = |(voxel, log): (&PointVoxel, &f64)| {
+            let (g, h) = at(&field, voxel.cell);
+            let length = g.length();
+            (voxel.value * log < curves.log && length > 0.0).then(|| {
+                let n = g / length;
+                let project = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+                let sign = if outside == Outside::Low { -1.0 } else { 1.0 };
+                let turning = project * h * (sign / length);
+                CurveVoxel { cell: voxel.cell, normal: voxel.normal, turning, to_edge: DVec3::ZERO }
+            })
+        };
+        let voxels = parallel::gather(voxels.len(), parallel::RUN, &|run, edges| {
+            edges.extend(voxels[run.clone()].iter().zip(&logs[run]).filter_map(edge));
         });
         Ok(Self { grid: volume.grid().clone(), voxels, is_snapped: false })
     }
@@ -148,7 +147,9 @@ impl CurveVoxels {
                 CurveSegment { cell: edge.cell, normal: edge.normal, ends: [centre - half, centre + half] }
             })
         };
-        self.voxels.par_iter().filter_map(segment).collect()
+        parallel::gather(self.voxels.len(), parallel::RUN, &|run, segments| {
+            segments.extend(self.voxels[run].iter().filter_map(segment));
+        })
     }
 }
 
@@ -160,8 +161,8 @@ fn smoothed(volume: &Volume, outside: Outside) -> Result<Field<'_, f64>, Stipple
 }
 
 /// Gradient and Hessian at a voxel.
-fn at<S: Sampler<f64>>(sampler: &S, cell: [u32; 3]) -> (DVec3, DMat3) {
-    let (g, h) = sampler.hessian(Vec3::from_glam(DVec3::from_array(cell.map(f64::from))));
+fn at(field: &Field<'_, f64>, cell: [u32; 3]) -> (DVec3, DMat3) {
+    let (g, h) = field.hessian(Vec3::from_glam(DVec3::from_array(cell.map(f64::from))));
     let rows = [[h.xx, h.xy, h.xz], [h.xy, h.yy, h.yz], [h.xz, h.yz, h.zz]];
     (g.to_glam(), DMat3::from_cols_array_2d(&rows))
 }
@@ -169,18 +170,18 @@ fn at<S: Sampler<f64>>(sampler: &S, cell: [u32; 3]) -> (DVec3, DMat3) {
 /// LoG at voxels, over its largest magnitude in the volume. Returns 0 where the field has no second derivatives.
 fn laplacians(volume: &Volume, voxels: &[PointVoxel]) -> Result<Vec<f64>, StippleError> {
     let field = smoothed(volume, Outside::Low)?;
-    let [nx, ny, _] = volume.dims();
+    let [nx, ny, nz] = volume.dims();
     let cell = |i: usize| [i % nx, i / nx % ny, i / (nx * ny)].map(|i| i as u32);
-    Ok(with_sampler!(field, |sampler| {
-        let laplacian = |cell: [u32; 3]| {
-            let (_, h) = at(sampler, cell);
-            h.x_axis.x + h.y_axis.y + h.z_axis.z
-        };
-        let largest = (0..volume.grid().len()).into_par_iter().map(|i| laplacian(cell(i)).abs());
-        let largest = largest.reduce(|| 0.0, f64::max);
-        let log = |voxel: &PointVoxel| if largest > 0.0 { laplacian(voxel.cell) / largest } else { 0.0 };
-        voxels.par_iter().map(log).collect()
-    }))
+    let laplacian = |cell: [u32; 3]| {
+        let (_, h) = at(&field, cell);
+        h.x_axis.x + h.y_axis.y + h.z_axis.z
+    };
+    let largest = parallel::map((ny * nz) as usize, &|row| {
+        (row * nx..(row + 1) * nx).fold(0.0, |largest: f64, i| largest.max(laplacian(cell(i)).abs()))
+    });
+    let largest = largest.into_iter().fold(0.0, f64::max);
+    let log = |voxel: &PointVoxel| if largest > 0.0 { laplacian(voxel.cell) / largest } else { 0.0 };
+    Ok(parallel::gather(voxels.len(), parallel::RUN, &|run, logs| logs.extend(voxels[run].iter().map(log))))
 }
 
 /// Clamps the volume's values to a range, for V from 0 to 1. Values beyond it then have no Laplacian.
@@ -191,7 +192,7 @@ fn within(volume: &Volume, [lo, hi]: [f64; 2]) -> Cow<'_, Volume> {
     }
     let [nx, ny, _] = volume.dims();
     let value = |i: usize| volume.value([i % nx, i / nx % ny, i / (nx * ny)]).max(lo).min(hi);
-    let values = (0..volume.grid().len()).into_par_iter().map(value).collect();
+    let values = parallel::gather(volume.grid().len(), nx, &|row, values| values.extend(row.map(value)));
     // Finite values on a valid grid make a volume.
     Volume::new(volume.grid().clone(), Voxels::F64(values), 1.0, 0.0).map_or(Cow::Borrowed(volume), Cow::Owned)
 }
@@ -231,5 +232,5 @@ pub fn exhaustive(grid: &Grid, voxels: &[PointVoxel], curves: &Curves, view: &Vi
             facing(cell).is_some_and(|other| (*own < 0.0) != (other < 0.0) && own.abs() <= other.abs())
         })
     };
-    passing.par_iter().filter(is_on_curve).map(|(voxel, _)| voxel.cell).collect()
+    passing.iter().filter(is_on_curve).map(|(voxel, _)| voxel.cell).collect()
 }

@@ -7,7 +7,7 @@
 //! candidates, so that faces in front of each other count together.
 
 use drypoint_scene::glam::DVec2;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -96,7 +96,7 @@ fn crowds(points: &[DotCandidate], cells: &PointCells, radii: &[f64], kept: f64)
         (crowds, ends)
     };
     let order: Vec<usize> = (0..points.len()).collect();
-    let parts: Vec<(Vec<Crowding>, Vec<usize>)> = order.par_chunks(4096).map(part).collect();
+    let parts = parallel::map_of(order.chunks(4096).collect(), &|_, order| part(order));
     let (mut crowds, mut first) = (Vec::new(), vec![0]);
     for (of_part, ends) in parts {
         first.extend(ends.into_iter().map(|end| crowds.len() + end));

@@ -9,12 +9,12 @@ use crate::surface::IsoSurface;
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
+use drypoint_scene::parallel;
 use drypoint_scene::points::{Points, SurfacePoint};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Even, LightDirection, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 pub use super::factors::viewing_distance;
@@ -171,7 +171,9 @@ impl<'a> Frames<'a> {
         Self {
             stipples,
             points,
-            still: points.voxels.par_iter().map(|voxel| FixedFactors::new(stipples, voxel, &points.grid)).collect(),
+            still: parallel::gather(points.voxels.len(), 64, &|run, still| {
+                still.extend(points.voxels[run].iter().map(|voxel| FixedFactors::new(stipples, voxel, &points.grid)));
+            }),
             light,
             centre,
             radius: grid.radius(),
@@ -191,7 +193,9 @@ impl<'a> Frames<'a> {
         self.candidates(view, page, drawn);
         if let Some(surface) = self.surface.as_deref() {
             let hidden = HiddenPoints::new(surface, view, self.near);
-            drawn.parts.par_iter_mut().for_each(|part| part.leave_out(|point| hidden.hides(point)));
+            parallel::chunks_mut(&mut drawn.parts, 1, &|_, parts| {
+                parts.iter_mut().for_each(|part| part.leave_out(|point| hidden.hides(point)));
+            });
         }
     }
 
@@ -210,7 +214,7 @@ impl<'a> Frames<'a> {
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, FramePart::default);
         drawn.nib = self.nib;
-        drawn.parts.par_iter_mut().enumerate().for_each(|(p, part)| {
+        parallel::each_of(drawn.parts.iter_mut().collect(), &|p, part: &mut FramePart| {
             part.hidden = 0;
             part.dots.clear();
             part.points.clear();

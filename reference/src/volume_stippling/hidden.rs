@@ -4,10 +4,10 @@ use super::curves::CurveSegment;
 use super::ridge::across;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::parallel;
 use drypoint_scene::points::SurfacePoint;
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 
 /// The largest distance of a point from its foot on the surface, along the gradient of its voxel. The unit is the
 /// extent of such a voxel along the gradient, which accounts for distant slices.
@@ -76,7 +76,9 @@ pub fn seen(
         normal: segment.normal,
         reach: reach(of_points, segment.normal),
     };
-    let hides: Vec<bool> = segments.par_iter().map(|segment| hidden.hides(&middle(segment))).collect();
+    let hides = parallel::gather(segments.len(), 64, &|run, hides| {
+        hides.extend(segments[run].iter().map(|segment| hidden.hides(&middle(segment))));
+    });
     let mut hides = hides.into_iter();
     segments.retain(|_| hides.next() == Some(false));
     segments

@@ -1,7 +1,7 @@
 //! Number of voxels of a face that print onto one place ([STIP-17]).
 
 use drypoint_scene::glam::DVec3;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// Number of counted steps along the normal, to either side.
 const REACH: i32 = 3;
@@ -22,7 +22,8 @@ pub(super) fn layers(
         (-REACH..=REACH).filter(|&k| at(k).is_some_and(&is_above)).count()
     };
     // Sums of integers do not depend on their order.
-    let sum: usize = steps.par_iter().map(count).sum();
+    let parts = parallel::map_of(steps.chunks(1 << 12).collect(), &|_, steps| steps.iter().map(count).sum::<usize>());
+    let sum: usize = parts.into_iter().sum();
     if steps.is_empty() { 1.0 } else { sum as f64 / steps.len() as f64 }
 }
 

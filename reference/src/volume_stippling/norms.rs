@@ -1,21 +1,20 @@
 //! ‖g‖ at every voxel and the length that counts as |g| = 1, by the estimator of stippling ([STIP-1], [VAL-2]).
 
-use crate::field::touches_mask;
-use crate::field::{GradientEstimator, Sampler};
-use drypoint_scene::volume::Volume;
+use crate::field::{Field, touches_mask};
+use drypoint_scene::parallel;
 use drypoint_scene::volume::quantile::quantile;
-use rayon::prelude::*;
 
 /// Replaces ‖g‖ where not all contributing voxels are valid.
 pub(super) const INVALID: f64 = -1.0;
 
 /// ‖g‖ of each voxel, x fastest, times the power of two of [SPACE-4].
-pub(super) fn norms<S: Sampler<f64>>(sampler: &S, volume: &Volume, estimator: GradientEstimator) -> Vec<f64> {
+pub(super) fn norms(field: &Field<'_, f64>) -> Vec<f64> {
+    let (volume, estimator) = (field.volume(), field.reconstruction().gradient);
     let [nx, ny, _] = volume.dims();
     let mut norms = vec![0.0; volume.grid().len()];
-    norms.par_chunks_mut(nx).enumerate().with_min_len(16).for_each_init(Vec::new, |rows, (row, norms)| {
+    parallel::chunks_mut(&mut norms, nx, &|row, norms| {
         let (y, z) = (row % ny, row / ny);
-        sampler.voxel_squares([y, z], rows, norms);
+        field.voxel_squares([y, z], &mut Vec::new(), norms);
         norms.iter_mut().for_each(|norm| *norm = norm.sqrt());
         if let Some(mask) = volume.mask() {
             let touches = |x| touches_mask(mask, volume.dims(), [x, y, z], estimator);
@@ -31,7 +30,7 @@ pub(super) fn quantile_above(norms: &[f64], bound: f64, q: f64) -> Option<f64> {
     let above = |(): &mut (), i: usize, numbers: &mut Vec<f64>| {
         numbers.extend(chunks[i].iter().filter(|&&norm| norm > bound));
     };
-    quantile(chunks.len(), || (), above, q)
+    quantile(chunks.len(), &|| (), &above, q)
 }
 
 #[cfg(test)]

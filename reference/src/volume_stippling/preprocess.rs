@@ -11,10 +11,10 @@ use super::resolution::boxes;
 use super::ridge::{Norms, step, to_edge};
 use super::surface_layer::SurfaceLayer;
 use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
-use crate::with_sampler;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
+use drypoint_scene::parallel;
 use drypoint_scene::points::{PointVoxel, Points};
 use drypoint_scene::tables::{
     DotDensity, GradientRange, Iso, Outside, PointsPerPixel, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
@@ -23,7 +23,6 @@ use drypoint_scene::tables::{
 use drypoint_scene::tone::{FULL, Tone};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
-use rayon::prelude::*;
 use std::borrow::Cow;
 
 /// Points of a voxel over those drawn at T = 1, for the density on the page. Dots of a face that turns away lie closer
@@ -98,8 +97,7 @@ impl<'a> Preprocess<'a> {
         // 4.1: gradients, and the voxels above the threshold.
         let field = field_of(&volume, stipples.gradient, table.outside)?;
         let range = table.range.unwrap_or(fine);
-        let BoundaryVoxels { voxels, to_edge, layers } =
-            with_sampler!(field, |sampler| above(sampler, &field, &inputs, range));
+        let BoundaryVoxels { voxels, to_edge, layers } = above(&field, &inputs, range);
         // Voxels per pixel of a face seen from the front.
         let density = |layers: f64| {
             let pixel =
@@ -146,7 +144,7 @@ impl<'a> Preprocess<'a> {
     fn above(&self, stipples: &Stipples) -> Result<BoundaryVoxels, StippleError> {
         let inputs = StippleInputs { stipples, tone: None, ..self.inputs };
         let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
-        Ok(with_sampler!(field, |sampler| above(sampler, &field, &inputs, self.range())))
+        Ok(above(&field, &inputs, self.range()))
     }
 
     /// Values for V = 0 and 1 ([VAL-1]).
@@ -246,16 +244,11 @@ struct BoundaryVoxels {
 }
 
 /// Finds the voxels above the threshold. `range` holds the values for V = 0 and 1.
-fn above<S: Sampler<f64>>(
-    sampler: &S,
-    field: &Field<'_, f64>,
-    inputs: &StippleInputs<'_>,
-    range: [f64; 2],
-) -> BoundaryVoxels {
+fn above(field: &Field<'_, f64>, inputs: &StippleInputs<'_>, range: [f64; 2]) -> BoundaryVoxels {
     let volume = field.volume();
     let (stipples, dims) = (inputs.stipples, volume.dims());
     // ‖∇V‖ of every voxel, its range and its threshold.
-    let norms = norms(sampler, field.volume(), estimator(stipples.gradient));
+    let norms = norms(field);
     let bound = field.no_normal_below();
     let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
     let scaled = |norm: f64| math::scale_by_power_of_two(norm, -field.scale_exponent());
@@ -285,7 +278,7 @@ fn above<S: Sampler<f64>>(
     let is_above = |cell, norm| norm > bound && layer.map_or_else(|| exceeds(norm), |layer| layer.crosses(cell));
     let voxel = |x: usize, y: usize, z: usize, norm: f64| {
         let cell = [x, y, z];
-        let normal = (sampler.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
+        let normal = (field.voxel_gradient(cell).to_glam() * (outward / norm)).normalize();
         let keeps = !stipples.is_thin() || ridge.is_largest(cell, to_step(normal));
         keeps.then(|| PointVoxel {
             cell: cell.map(|i| i as u32),
@@ -294,12 +287,11 @@ fn above<S: Sampler<f64>>(
             normal,
         })
     };
-    let rows = norms.par_chunks(dims[0]).enumerate().map(|(row, norms)| {
-        let (y, z) = (row % dims[1], row / dims[1]);
-        let candidates = norms.iter().enumerate().filter(|&(x, &norm)| is_above([x, y, z], norm));
-        candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)).collect::<Vec<_>>()
+    let mut voxels = parallel::gather(norms.len(), dims[0], &|row, voxels| {
+        let (y, z) = (row.start / dims[0] % dims[1], row.start / dims[0] / dims[1]);
+        let candidates = norms[row].iter().enumerate().filter(|&(x, &norm)| is_above([x, y, z], norm));
+        voxels.extend(candidates.filter_map(|(x, &norm)| voxel(x, y, z, norm)));
     });
-    let mut voxels = rows.collect::<Vec<_>>().concat();
     // With `snap` points move to the ridge, and V and ‖∇V‖ are taken there.
     let onto_edge = |v: &mut PointVoxel| {
         let cell = v.cell.map(|i| i as usize);
@@ -313,7 +305,13 @@ fn above<S: Sampler<f64>>(
         way
     };
     let snaps = stipples.snap == Snap::Edge;
-    let to_edge = if snaps { voxels.par_iter_mut().map(onto_edge).collect() } else { Vec::new() };
+    let to_edge = if snaps {
+        let parts = voxels.chunks_mut(1 << 10).collect();
+        parallel::map_of(parts, &|_, voxels: &mut [PointVoxel]| voxels.iter_mut().map(onto_edge).collect::<Vec<_>>())
+            .concat()
+    } else {
+        Vec::new()
+    };
     // A thin face has one layer. Its voxels draw points in proportion to their pieces of the face.
     let layers = if inputs.tone.is_some() && !stipples.is_thin() {
         let to_step = grid.inverse_axes() * grid.voxel();

@@ -1,9 +1,9 @@
 //! Boxes of m³ voxels that replace voxels whose projection is too small for a pattern (4.2, [STIP-2]).
 
 use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::parallel;
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::{Volume, Voxels};
-use rayon::prelude::*;
 
 /// Means over boxes of m³ voxels, on a grid of their own.
 ///
@@ -36,7 +36,7 @@ pub(super) fn boxes(volume: &Volume, m: usize) -> Option<Volume> {
         // The mean of no values is NaN, which makes the box invalid.
         mean.get()
     };
-    let means = (0..boxes.len()).into_par_iter().map(mean).collect();
+    let means = parallel::gather(boxes.len(), boxes.dims()[0], &|row, means| means.extend(row.map(mean)));
     Volume::new(boxes, Voxels::F64(means), volume.slope(), volume.intercept()).ok()
 }
 

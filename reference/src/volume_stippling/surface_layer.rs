@@ -6,8 +6,8 @@
 //! Gaussian, which is the surface itself where f is linear.
 
 use drypoint_scene::math;
+use drypoint_scene::parallel;
 use drypoint_scene::volume::Volume;
-use rayon::prelude::*;
 
 /// The surface f = iso among the voxels of a volume.
 #[derive(Clone, Copy)]
@@ -40,7 +40,7 @@ impl SurfaceLayer<'_> {
         let [nx, ny, _] = self.volume.dims();
         let unit = self.volume.grid().spacing().into_iter().fold(0.0, f64::max);
         let mut bells = vec![0.0; norms.len()];
-        bells.par_chunks_mut(nx).enumerate().with_min_len(16).for_each(|(row, bells)| {
+        parallel::chunks_mut(&mut bells, nx, &|row, bells| {
             let (y, z) = (row % ny, row / ny);
             for (x, bell) in bells.iter_mut().enumerate() {
                 let norm = norms[row * nx + x];

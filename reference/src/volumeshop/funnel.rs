@@ -1,7 +1,7 @@
 //! Smooth cutaways (6.2, 7; [VS-7]): a funnel about an object, from a smoothed map of depths.
 
 use drypoint_scene::math;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// c̃ and d̂ of each pixel of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +76,7 @@ fn dilated([width, height]: [usize; 2], radius: f64, depths: &[f64]) -> Vec<f64>
         }
         out
     };
-    (0..height).into_par_iter().flat_map_iter(row).collect()
+    parallel::gather(height, 1, &|rows, out| rows.for_each(|y| out.extend(row(y))))
 }
 
 /// Weights of a Gaussian at −⌊4σ⌋ … ⌊4σ⌋, of sum 1.
@@ -99,7 +99,7 @@ fn smoothed_rows([width, height]: [usize; 2], taps: &[f64], pixels: &[[f64; 2]])
             near.fold([0.0; 2], |[c, cd], ([c_i, cd_i], w)| [c + c_i * w, cd + cd_i * w])
         })
     };
-    (0..height).into_par_iter().flat_map_iter(row).collect()
+    parallel::gather(height, 1, &|rows, out| rows.for_each(|y| out.extend(row(y))))
 }
 
 /// Columns as rows.

@@ -5,6 +5,7 @@ use super::median::median;
 use super::spans::SpanImage;
 use super::spreading::{copy, pass};
 use super::taps::{Border, Taps};
+use drypoint_scene::parallel;
 use drypoint_scene::shot::halo;
 use std::mem::swap;
 
@@ -156,7 +157,7 @@ impl HaloField {
         }
         // One step into the pool of threads for all passes.
         if self.seeds.is_large() {
-            rayon::scope(|_| self.make(process));
+            parallel::in_pool(&mut || self.make(process));
         } else {
             self.make(process);
         }

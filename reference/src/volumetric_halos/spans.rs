@@ -1,6 +1,6 @@
 //! Images that know where they are zero: a range a row ([HALO-5]).
 
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// A range of pixels of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,16 +100,21 @@ impl SpanImage {
 
     /// Finds the ranges of all rows.
     pub(super) fn find_spans(&mut self) {
+        const RUN: usize = 8 * ROWS;
         let width = self.width;
         let (values, spans) = (&self.values, &mut self.spans);
-        let find = |(span, row): (&mut Span, &[f64])| *span = Span { start: 0, end: width }.trimmed(row);
         if width == 0 {
             return;
         }
+        let find = |run: usize, spans: &mut [Span]| {
+            for (span, row) in spans.iter_mut().zip(values[run * RUN * width..].chunks(width)) {
+                *span = Span { start: 0, end: width }.trimmed(row);
+            }
+        };
         if values.len() >= 8 * SHARED_WORK {
-            spans.par_iter_mut().zip(values.par_chunks(width)).with_min_len(8 * ROWS).for_each(find);
+            parallel::chunks_mut(spans, RUN, &find);
         } else {
-            spans.iter_mut().zip(values.chunks(width)).for_each(find);
+            spans.chunks_mut(RUN).enumerate().for_each(|(run, spans)| find(run, spans));
         }
     }
 
@@ -173,8 +178,8 @@ impl SpanImage {
         if work < SHARED_WORK {
             block(0, values, spans);
         } else {
-            let blocks = values.par_chunks_mut(ROWS * width).zip(spans.par_chunks_mut(ROWS)).enumerate();
-            blocks.for_each(|(i, (values, spans))| block(i * ROWS, values, spans));
+            let blocks = values.chunks_mut(ROWS * width).zip(spans.chunks_mut(ROWS)).collect();
+            parallel::each_of(blocks, &|i, (values, spans)| block(i * ROWS, values, spans));
         }
     }
 }

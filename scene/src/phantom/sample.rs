@@ -3,10 +3,10 @@
 use super::PhantomSource;
 use super::{Phantom, PhantomError, of_source};
 use crate::memory;
+use crate::parallel;
 use crate::space::Grid;
 use crate::volume::{KeptVoxels, Subset, Volume, VoxelType, Voxels};
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// The phantom's value at each voxel centre. Integer types are rounded to the nearest (ties to even) and clamped to
 /// their range. A stored value is therefore within ½ of the analytic one if that is in range. f32 rounds to the
@@ -87,12 +87,17 @@ pub fn generate_part(source: &PhantomSource, subset: &Subset) -> Result<Volume, 
 }
 
 /// One number a kept voxel, x fastest.
-fn fill<T: Send>(grid: &Grid, kept: &KeptVoxels, at: impl Fn(DVec3) -> T + Sync) -> Result<Vec<T>, PhantomError> {
-    let mut voxels = Vec::new();
+fn fill<T: Copy + Default + Send>(
+    grid: &Grid,
+    kept: &KeptVoxels,
+    at: impl Fn(DVec3) -> T + Sync,
+) -> Result<Vec<T>, PhantomError> {
     memory::room_for(kept.len() as u64, size_of::<T>() as u64)
         .map_err(|no_room| PhantomError::Memory { dims: grid.dims(), no_room })?;
-    voxels.reserve_exact(kept.len());
+    let mut voxels = vec![T::default(); kept.len()];
     let index = |i: usize| DVec3::from(kept.index(i).map(|n| n as f64));
-    (0..kept.len()).into_par_iter().map(|i| at(grid.to_world(index(i)))).collect_into_vec(&mut voxels);
+    parallel::chunks_mut(&mut voxels, parallel::RUN, &|run, voxels| {
+        (run * parallel::RUN..).zip(voxels).for_each(|(i, voxel)| *voxel = at(grid.to_world(index(i))));
+    });
     Ok(voxels)
 }

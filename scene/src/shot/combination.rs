@@ -302,7 +302,7 @@ mod tests {
     #[test]
     fn members_by_value_are_where_bricks_have_them() {
         let grid = Grid::with_spacing([9, 5, 1], [1.0; 3]).unwrap();
-        let bricks = Bricks::new([9, 5, 1], |_| vec![[0.0, 10.0], [10.0, 20.0]]);
+        let bricks = Bricks::new([9, 5, 1], &|_| vec![[0.0, 10.0], [10.0, 20.0]]);
         let members = |pairs: &[[f64; 2]], bricks| {
             let membership = Membership::Value(pairs.to_vec());
             let params = SelectionParams { membership, index_box: None, motion: None, has_own_volume: false };

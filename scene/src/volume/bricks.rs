@@ -1,5 +1,7 @@
 //! Minimum and maximum over bricks of cells, for empty-space skipping ([RAY-2]).
 
+use crate::parallel;
+
 /// Cells along the side of a brick.
 pub const BRICK: usize = 4;
 
@@ -14,19 +16,16 @@ pub struct Bricks {
 
 impl Bricks {
     /// Bricks over the cells of a grid, with the ranges that `ranges` gives for each row of them along x.
-    pub fn new(grid_dims: [usize; 3], ranges: impl Fn(&BrickRow) -> Vec<[f64; 2]> + Sync) -> Self {
-        use rayon::prelude::*;
+    pub fn new(grid_dims: [usize; 3], ranges: &(dyn Fn(&BrickRow) -> Vec<[f64; 2]> + Sync)) -> Self {
         let cells = grid_dims.map(|n| n.max(2) - 1);
         let dims = cells.map(|n| n.div_ceil(BRICK));
-        let ranges = (0..dims[1] * dims[2])
-            .into_par_iter()
-            .flat_map_iter(|row| {
-                let brick = [row % dims[1], row / dims[1]];
-                let ranges = ranges(&BrickRow { cells, brick });
-                debug_assert_eq!(ranges.len(), dims[0]);
-                ranges
-            })
-            .collect();
+        let ranges = parallel::map(dims[1] * dims[2], &|row| {
+            let brick = [row % dims[1], row / dims[1]];
+            let ranges = ranges(&BrickRow { cells, brick });
+            debug_assert_eq!(ranges.len(), dims[0]);
+            ranges
+        });
+        let ranges = ranges.concat();
         Self { dims, ranges }
     }
 

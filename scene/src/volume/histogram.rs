@@ -2,7 +2,7 @@
 
 use super::quantile::{rank, select};
 use super::{Access, Volume, Voxel};
-use rayon::prelude::*;
+use crate::parallel;
 use serde::Serialize;
 
 /// Counts of the values of a volume in equal bins. Masked voxels do not count ([PREC-2]).
@@ -56,31 +56,30 @@ fn sums<A: Access>(
     bin: impl Fn(A::Voxel) -> Option<usize> + Sync,
 ) -> Vec<u64> {
     let [nx, ny, nz] = volume.dims();
-    let add = |mut sum: Vec<u64>, part: Vec<u64>| {
-        sum.iter_mut().zip(part).for_each(|(a, b)| *a += b);
-        sum
-    };
-    // Sums of whole numbers: the order of the parts does not show. A part for each thread: bins can be many.
-    let part = nz.div_ceil(rayon::current_num_threads());
-    (0..nz)
-        .into_par_iter()
-        .with_min_len(part)
-        .fold(
-            || vec![0; bins],
-            |mut counts, z| {
-                for y in 0..ny {
-                    for x in 0..nx {
-                        if volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))
-                            && let Some(bin) = bin(access.at(x, y, z))
-                        {
-                            counts[bin] += 1;
-                        }
+    // A part for each thread: bins can be many.
+    let part = nz.div_ceil(parallel::threads());
+    let parts = parallel::map(nz.div_ceil(part), &|i| {
+        let mut counts = vec![0; bins];
+        for z in i * part..nz.min((i + 1) * part) {
+            for y in 0..ny {
+                for x in 0..nx {
+                    if volume.mask().is_none_or(|mask| !mask.voxel([x, y, z]))
+                        && let Some(bin) = bin(access.at(x, y, z))
+                    {
+                        counts[bin] += 1;
                     }
                 }
-                counts
-            },
-        )
-        .reduce(|| vec![0; bins], add)
+            }
+        }
+        counts
+    });
+    parts.into_iter().fold(vec![0; bins], added)
+}
+
+/// The sums of two lists of counts.
+pub(super) fn added(mut sums: Vec<u64>, counts: Vec<u64>) -> Vec<u64> {
+    sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum += count);
+    sums
 }
 
 /// Quantiles of the values of a volume, after slope and intercept, masked voxels left out.
@@ -95,7 +94,7 @@ pub fn quantiles(volume: &Volume, qs: &[f64]) -> Vec<f64> {
             let is_valid = |x: &usize| volume.mask().is_none_or(|mask| !mask.voxel([*x, y, z]));
             numbers.extend((0..nx).filter(is_valid).map(|x| access.at(x, y, z)));
         };
-        let stored = select(ny * nz, || (), fill, |n| qs.iter().map(|&q| place(q, n)).collect());
+        let stored = select(ny * nz, &|| (), &fill, |n| qs.iter().map(|&q| place(q, n)).collect());
         stored.into_iter().map(|stored| slope * stored.to_f64() + intercept).collect()
     })
 }

@@ -28,9 +28,9 @@ pub use shown::ShownValues;
 pub use subset::{KeptVoxels, NotInVolume, Subset};
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
+use crate::parallel;
 use crate::space::Grid;
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// Anatomical directions of the world axes, as far as a file names them ([SPACE-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,20 +154,20 @@ impl Volume {
     pub fn present(&self) -> Self {
         let (slope, intercept) = (self.slope, self.intercept);
         let dims = self.dims();
-        let present: Vec<u8> = with_access!(self, |access| {
-            let above = |i: usize| {
-                let stored = access.at(i % dims[0], i / dims[0] % dims[1], i / (dims[0] * dims[1]));
-                u8::from(slope * stored.to_f64() + intercept > 0.0)
-            };
-            (0..self.voxels.len()).into_par_iter().map(above).collect()
-        });
+        let mut present = vec![0; self.voxels.len()];
+        with_access!(self, |access| parallel::chunks_mut(&mut present, dims[0], &|row, present| {
+            let (y, z) = (row % dims[1], row / dims[1]);
+            for (x, present) in present.iter_mut().enumerate() {
+                *present = u8::from(slope * access.at(x, y, z).to_f64() + intercept > 0.0);
+            }
+        }));
         let voxels = Voxels::U8(present);
         let range = voxels.range();
         Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
     }
 
     /// Takes the least value in the volume as that of some voxels, or the greatest. Slope, range and mask stay.
-    fn flatten(&mut self, is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
+    fn flatten(&mut self, is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
         // A negative slope turns the order of the stored numbers round.
         let highest = to_highest == (self.slope > 0.0);
         self.voxels.flatten(is_flat, highest);

@@ -5,8 +5,8 @@
 
 use super::{Access, Mask, ShownValues, Volume, Voxel};
 use crate::memory::{self, NoRoom};
+use crate::parallel;
 use glam::DVec3;
-use rayon::prelude::*;
 
 /// The parts that are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,19 +86,21 @@ impl Parts {
         };
         // Runs are counted before they are kept, so that the budget is asked for no more than there are.
         memory::room_for(ny as u64 * nz as u64 + 1, size_of::<usize>() as u64)?;
-        let mut rows: Vec<usize> = (0..ny * nz + 1).into_par_iter().map(|_| 0).collect();
-        rows[1..].par_iter_mut().enumerate().for_each(|(row, count)| visit(row, &mut |_, _| *count += 1));
+        let mut rows: Vec<usize> = vec![0; ny * nz + 1];
+        parallel::chunks_mut(&mut rows[1..], ny, &|z, counts| {
+            for (row, count) in (z * ny..).zip(counts) {
+                visit(row, &mut |_, _| *count += 1);
+            }
+        });
         for row in 0..ny * nz {
             rows[row + 1] += rows[row];
         }
         // Every run may be a part of its own.
         memory::room_for(rows[ny * nz] as u64, (2 * size_of::<Run>() + size_of::<Part>()) as u64)?;
-        let slices = (0..nz).into_par_iter().flat_map_iter(|z| {
-            let mut runs = Vec::with_capacity(rows[(z + 1) * ny] - rows[z * ny]);
-            (z * ny..(z + 1) * ny).for_each(|row| visit(row, &mut |start, end| runs.push(Run { start, end, part: 0 })));
-            runs
+        let mut runs: Vec<Run> = parallel::gather(ny * nz, ny, &|slice, runs| {
+            runs.reserve_exact(rows[slice.end] - rows[slice.start]);
+            slice.for_each(|row| visit(row, &mut |start, end| runs.push(Run { start, end, part: 0 })));
         });
-        let mut runs: Vec<Run> = slices.collect();
         join(&mut runs, &rows, dims);
         let all = order(&mut runs, &rows, nx);
         Ok(Self { dims, runs, rows, all })
@@ -176,7 +178,7 @@ impl Parts {
                 flat.set(from + run.start..from + run.end);
             }
         }
-        volume.flatten(|i| flat.has(i), outside_is_high);
+        volume.flatten(&|i| flat.has(i), outside_is_high);
         Ok(())
     }
 

@@ -1,6 +1,7 @@
 //! Quantiles and order statistics of more numbers than are kept ([VAL-2]).
 
-use rayon::prelude::*;
+use super::histogram::added;
+use crate::parallel;
 
 /// A number whose order is that of a key of as many bits.
 pub trait Key: Copy + Send {
@@ -61,10 +62,10 @@ pub fn rank(q: f64, n: usize) -> usize {
 
 /// Returns the quantile q of numbers, without interpolation, and none if there is no number. See [`select`] for `parts`,
 /// `work` and `fill`.
-pub fn quantile<N: Key, W: Send>(
+pub fn quantile<N: Key, W>(
     parts: usize,
-    work: impl Fn() -> W + Sync + Send,
-    fill: impl Fn(&mut W, usize, &mut Vec<N>) + Sync,
+    work: &(dyn Fn() -> W + Sync),
+    fill: &(dyn Fn(&mut W, usize, &mut Vec<N>) + Sync),
     q: f64,
 ) -> Option<N> {
     select(parts, work, fill, |n| vec![rank(q, n)]).pop()
@@ -79,15 +80,14 @@ pub fn quantile<N: Key, W: Send>(
 /// Numbers are counted by the upper 16 bits of their keys first. If few share these bits with a sought number, they are
 /// gathered; otherwise they are counted by the next 16 bits, and so on. Gathering all of them would need a second
 /// volume.
-pub fn select<N: Key, W: Send>(
+pub fn select<N: Key, W>(
     parts: usize,
-    work: impl Fn() -> W + Sync + Send,
-    fill: impl Fn(&mut W, usize, &mut Vec<N>) + Sync,
+    work: &(dyn Fn() -> W + Sync),
+    fill: &(dyn Fn(&mut W, usize, &mut Vec<N>) + Sync),
     places: impl FnOnce(usize) -> Vec<usize>,
 ) -> Vec<N> {
     // First pass: counts of all numbers by their upper digit.
-    let passes = Passes { work, fill, spans: vec![[0, u64::MAX]; parts] };
-    let (mut passes, digit) = (passes, N::BITS.min(DIGIT));
+    let (mut passes, digit) = (Passes { work, fill, spans: vec![[0, u64::MAX]; parts] }, N::BITS.min(DIGIT));
     let mut below = N::BITS - digit;
     let mut counts = passes.count(&[0], below, digit);
     let total: u64 = counts.iter().sum();
@@ -162,81 +162,58 @@ impl RankQuery {
 }
 
 /// Passes over all numbers.
-struct Passes<W, F> {
-    work: W,
-    fill: F,
+struct Passes<'f, M, N> {
+    work: &'f (dyn Fn() -> M + Sync),
+    fill: &'f (dyn Fn(&mut M, usize, &mut Vec<N>) + Sync),
     /// Lowest and highest key of each part, from the first pass on.
     spans: Vec<[u64; 2]>,
 }
 
-impl<W, F> Passes<W, F> {
+impl<M, N: Key> Passes<'_, M, N> {
     /// Counts the numbers whose keys begin with one of some prefixes, in ascending order. Counts are by the value of
     /// the digit behind the prefix and above `below` bits: one block of counts for each prefix.
-    fn count<N: Key, M: Send>(&mut self, prefixes: &[u64], below: u32, digit: u32) -> Vec<u64>
-    where
-        W: Fn() -> M + Sync + Send,
-        F: Fn(&mut M, usize, &mut Vec<N>) + Sync,
-    {
-        let (work, fill, bins) = (&self.work, &self.fill, prefixes.len() << digit);
+    fn count(&mut self, prefixes: &[u64], below: u32, digit: u32) -> Vec<u64> {
+        let (work, fill, bins) = (self.work, self.fill, prefixes.len() << digit);
         // Each task counts in its own list of bins, and the lists are summed.
-        let together = self.spans.len().div_ceil(4 * rayon::current_num_threads()).max(TOGETHER);
-        self.spans
-            .par_iter_mut()
-            .enumerate()
-            .with_min_len(together)
-            .filter(|(_, span)| may_hold(span, prefixes, below + digit))
-            .fold(
-                || (work(), Vec::new(), vec![0; bins]),
-                |(mut work, mut numbers, mut counts), (part, span)| {
-                    numbers.clear();
-                    fill(&mut work, part, &mut numbers);
-                    *span = [u64::MAX, 0];
-                    for key in numbers.iter().map(|number| number.key()) {
-                        *span = [span[0].min(key), span[1].max(key)];
-                        let upper = key >> below;
-                        let block = match prefixes {
-                            [one] => (*one == upper >> digit).then_some(0),
-                            _ => prefixes.iter().position(|&prefix| prefix == upper >> digit),
-                        };
-                        if let Some(block) = block {
-                            counts[block << digit | (upper as usize & ((1 << digit) - 1))] += 1;
-                        }
+        let together = self.spans.len().div_ceil(4 * parallel::threads()).max(TOGETHER);
+        let tasks = self.spans.chunks_mut(together).collect();
+        let counts = parallel::map_of(tasks, &|task, spans: &mut [[u64; 2]]| {
+            let (mut work, mut numbers, mut counts) = (work(), Vec::new(), vec![0; bins]);
+            for (part, span) in (task * together..).zip(spans) {
+                if !may_hold(span, prefixes, below + digit) {
+                    continue;
+                }
+                numbers.clear();
+                fill(&mut work, part, &mut numbers);
+                *span = [u64::MAX, 0];
+                for key in numbers.iter().map(|number| number.key()) {
+                    *span = [span[0].min(key), span[1].max(key)];
+                    let upper = key >> below;
+                    let block = match prefixes {
+                        [one] => (*one == upper >> digit).then_some(0),
+                        _ => prefixes.iter().position(|&prefix| prefix == upper >> digit),
+                    };
+                    if let Some(block) = block {
+                        counts[block << digit | (upper as usize & ((1 << digit) - 1))] += 1;
                     }
-                    (work, numbers, counts)
-                },
-            )
-            .map(|(_, _, counts)| counts)
-            // Sums of integers: the order of the parts does not show.
-            .reduce_with(|mut a, b| {
-                a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
-                a
-            })
-            .unwrap_or_else(|| vec![0; bins])
+                }
+            }
+            counts
+        });
+        counts.into_iter().reduce(added).unwrap_or_else(|| vec![0; bins])
     }
 
     /// The keys that begin with one of some prefixes.
-    fn gather<N: Key, M: Send>(&self, prefixes: &[u64], below: u32) -> Vec<u64>
-    where
-        W: Fn() -> M + Sync + Send,
-        F: Fn(&mut M, usize, &mut Vec<N>) + Sync,
-    {
-        self.spans
-            .par_iter()
-            .enumerate()
-            .with_min_len(TOGETHER)
-            .filter(|(_, span)| may_hold(span, prefixes, below))
-            .fold(
-                || ((self.work)(), Vec::new(), Vec::new()),
-                |(mut work, mut numbers, mut members), (part, _)| {
-                    numbers.clear();
-                    (self.fill)(&mut work, part, &mut numbers);
-                    let keys = numbers.iter().map(|number| number.key());
-                    members.extend(keys.filter(|key| prefixes.contains(&(key >> below))));
-                    (work, numbers, members)
-                },
-            )
-            .flat_map_iter(|(_, _, members)| members)
-            .collect()
+    fn gather(&self, prefixes: &[u64], below: u32) -> Vec<u64> {
+        parallel::gather(self.spans.len(), TOGETHER, &|parts, members| {
+            let (mut work, mut numbers) = ((self.work)(), Vec::new());
+            for part in parts.filter(|&part| may_hold(&self.spans[part], prefixes, below)) {
+                numbers.clear();
+                (self.fill)(&mut work, part, &mut numbers);
+                let keys = numbers.iter().map(|number| number.key());
+                members.extend(keys.filter(|key| prefixes.contains(&(key >> below))));
+            }
+        })
     }
 }
 
@@ -259,7 +236,7 @@ mod tests {
     }
 
     fn of_slice<N: Key + Sync>(numbers: &[N], q: f64) -> Option<N> {
-        quantile(numbers.len().div_ceil(7), || (), |(), part, to| to.extend(numbers.chunks(7).nth(part).unwrap()), q)
+        quantile(numbers.len().div_ceil(7), &|| (), &|(), part, to| to.extend(numbers.chunks(7).nth(part).unwrap()), q)
     }
 
     #[test]
@@ -307,7 +284,7 @@ mod tests {
             for q in [0.0, 0.1, 0.5, 0.999, 1.0] {
                 let mut all = Vec::new();
                 (0..parts).for_each(|part| fill(&mut (), part, &mut all));
-                assert_eq!(quantile(parts, || (), fill, q), sorted(&mut all, q), "{parts} {q}");
+                assert_eq!(quantile(parts, &|| (), &fill, q), sorted(&mut all, q), "{parts} {q}");
             }
         }
     }
@@ -322,7 +299,7 @@ mod tests {
         };
         for q in [0.0, 0.3, 0.999, 1.0] {
             let want = f64::from_bits(1f64.to_bits() + rank(q, parts * each) as u64);
-            assert_eq!(quantile(parts, || (), fill, q), Some(want), "{q}");
+            assert_eq!(quantile(parts, &|| (), &fill, q), Some(want), "{q}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Voxels in the type that the file has: a u8 stays one byte.
 
-use rayon::prelude::*;
+use crate::parallel;
 
 /// A number that a voxel can be.
 pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
@@ -211,11 +211,15 @@ impl Voxels {
     }
 
     /// Puts the lowest stored number, or the highest, in the place of those whose linear index is flat.
-    pub(super) fn flatten(&mut self, is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
-        fn put<V: Voxel>(v: &mut [V], is_flat: impl Fn(usize) -> bool + Sync, to_highest: bool) {
+    pub(super) fn flatten(&mut self, is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
+        fn put<V: Voxel>(v: &mut [V], is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
+            const RUN: usize = 1 << 12;
             let outermost = |a: V, b: V| if (b > a) == to_highest { b } else { a };
             let Some(value) = v.iter().copied().reduce(outermost) else { return };
-            v.par_iter_mut().enumerate().filter(|(i, _)| is_flat(*i)).for_each(|(_, voxel)| *voxel = value);
+            parallel::chunks_mut(v, RUN, &|run, voxels| {
+                let flat = (run * RUN..).zip(voxels).filter(|(i, _)| is_flat(*i));
+                flat.for_each(|(_, voxel)| *voxel = value);
+            });
         }
         match self {
             Self::U8(v) => put(v, is_flat, to_highest),

@@ -8,12 +8,12 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Pen, Polyline};
 use drypoint_scene::math;
+use drypoint_scene::parallel;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
 use drypoint_scene::tables::{Hatching as Table, Spacing};
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 use std::time::Instant;
 
 /// τ above which strokes are crossed if the tone is in the spacing ([HATCH-19]).
@@ -78,7 +78,9 @@ impl GrownHatching<'_> {
                 let made = (*stroke, length, ink);
                 room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
             };
-            let drawn: Vec<room::StyledStroke> = strokes.par_iter().flat_map_iter(draw).collect();
+            let drawn = parallel::gather(strokes.len(), 1, &|run, drawn| {
+                drawn.extend(strokes[run].iter().flat_map(draw));
+            });
             let mut seen = sight.seen_drawn(&drawn);
             if by_depth {
                 sight.far_to_near(&mut seen.lines);

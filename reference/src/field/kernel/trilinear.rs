@@ -49,33 +49,37 @@ impl<R: Real> Interpolant<R> for Trilinear {
         }
     }
 
-    const AT_ONCE: usize = 8;
-
-    /// Decides the stored type once for all values. Eight voxels are read so quickly that a decision per value, and the
-    /// wait for each value before the next, would take most of the time.
-    #[inline(always)]
-    fn values(&self, field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
-        let places = values.iter_mut().enumerate().map(|(i, value)| (place(i), value));
-        if field.stencils.careful() {
-            places.for_each(|(at, v)| *v = self.value(field, at));
-        } else {
-            with_access!(field.volume, |a| places.for_each(|(at, v)| *v = value(stencil::corners(a, at.cell), at.w)));
-        }
-    }
-
-    #[inline(always)]
-    fn corners(&self, field: &Field<'_, R>, cell: [usize; 3]) -> Option<Corners<R>> {
-        Some(match field.stencils.careful_corners(cell) {
-            Some(corners) => corners,
-            None => with_access!(field.volume, |a| stencil::corners(a, cell)),
-        })
-    }
-
     #[inline]
     fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
         match field.stencils.careful_corners(at.cell) {
             Some(corners) => gradient(corners, at.w),
             None => with_access!(field.volume, |a| gradient(stencil::corners(a, at.cell), at.w)),
+        }
+    }
+}
+
+impl Trilinear {
+    /// Values that are worth computing at once.
+    pub(in crate::field) const AT_ONCE: usize = 8;
+
+    /// The numbers at several places. It decides the stored type once for all of them: a decision for each, and the wait
+    /// for each before the next, would take most of the time.
+    #[inline(always)]
+    pub(in crate::field) fn values<R: Real>(field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
+        let places = values.iter_mut().enumerate().map(|(i, value)| (place(i), value));
+        if field.stencils.careful() {
+            places.for_each(|(at, v)| *v = Self.value(field, at));
+        } else {
+            with_access!(field.volume, |a| places.for_each(|(at, v)| *v = value(stencil::corners(a, at.cell), at.w)));
+        }
+    }
+
+    /// The numbers at the corners of a cell.
+    #[inline(always)]
+    pub(in crate::field) fn corners<R: Real>(field: &Field<'_, R>, cell: [usize; 3]) -> Corners<R> {
+        match field.stencils.careful_corners(cell) {
+            Some(corners) => corners,
+            None => with_access!(field.volume, |a| stencil::corners(a, cell)),
         }
     }
 }

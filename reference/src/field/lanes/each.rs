@@ -1,59 +1,50 @@
 //! Fields whose kernel has no lanes of its own: one position after the other, as a ray alone would ask.
 
 use super::{LANES, PlaceColumns, Places, Reader, Seconds, places, splat};
-use crate::field::Field;
-use crate::field::place::Place;
-use crate::field::sampler::{AnySampler, Interpolant, Sampled, index_gradient, index_second, number};
+use crate::field::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
+use crate::field::sampler::{Interpolant, with_kernel};
+use crate::field::{Field, GradientEstimator, KernelData, Second};
 use crate::number::lanes::widely;
 use crate::number::{Sym3, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// A kernel's results for the lanes `asked`, along the index axes and before slope and intercept. Loops over samples
-/// are compiled once for all expensive kernels and call these methods.
-pub(crate) trait Each: Sync {
-    /// Values.
-    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES];
-
-    /// Gradients.
-    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3];
-
-    /// Gradients and Hessians: x, y, z, xx, xy, xz, yy, yz, zz.
-    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9];
-}
-
-impl<K: Interpolant<f64>> Each for Sampled<'_, '_, f64, K> {
-    fn numbers(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES] {
-        let [numbers] = of_each(asked, |lane| [number(self, at.place(lane))]);
+impl Field<'_, f64> {
+    /// Values of the lanes `asked`, before slope and intercept.
+    fn numbers_of(&self, at: &PlaceColumns, asked: u64) -> [f64; LANES] {
+        let [numbers] = with_kernel!(self, |kernel| of_each(asked, |lane| [kernel.value(self, at.place(lane))]));
         numbers
     }
 
-    fn gradients(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3] {
-        of_each(asked, |lane| {
-            let Vec3 { x, y, z } = index_gradient(self, at.place(lane), estimated_gradient);
-            [x, y, z]
-        })
+    /// Gradients of the lanes `asked` along the index axes.
+    fn gradients_of(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 3] {
+        match self.how.gradient {
+            GradientEstimator::Analytic => {
+                with_kernel!(self, |kernel| of_each(asked, |lane| of_vector(kernel.gradient(self, at.place(lane)))))
+            }
+            _ => of_each(asked, |lane| of_vector(self.index_gradient(at.place(lane)))),
+        }
     }
 
-    fn seconds(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9] {
-        of_each(asked, |lane| {
-            let (Vec3 { x, y, z }, Sym3 { xx, xy, xz, yy, yz, zz }) =
-                index_second(self, at.place(lane), estimated_second);
-            [x, y, z, xx, xy, xz, yy, yz, zz]
-        })
+    /// Gradients and Hessians of the lanes `asked` along the index axes: x, y, z, xx, xy, xz, yy, yz, zz.
+    fn seconds_of(&self, at: &PlaceColumns, asked: u64) -> [[f64; LANES]; 9] {
+        match self.second {
+            Second::Analytic => {
+                with_kernel!(self, |kernel| of_each(asked, |lane| of_both(kernel.second(self, at.place(lane)))))
+            }
+            _ => of_each(asked, |lane| of_both(self.index_second(at.place(lane)))),
+        }
     }
 }
 
-/// The field's estimate, compiled once and not for each kernel.
-#[inline(never)]
-fn estimated_gradient(field: &Field<'_, f64>, at: Place<f64>) -> Vec3<f64> {
-    field.estimated_gradient(at)
+#[inline(always)]
+fn of_vector(Vec3 { x, y, z }: Vec3<f64>) -> [f64; 3] {
+    [x, y, z]
 }
 
-/// The field's estimate, compiled once and not for each kernel.
-#[inline(never)]
-fn estimated_second(field: &Field<'_, f64>, at: Place<f64>) -> (Vec3<f64>, Sym3<f64>) {
-    field.estimated_second(at)
+#[inline(always)]
+fn of_both((g, h): (Vec3<f64>, Sym3<f64>)) -> [f64; 9] {
+    [g.x, g.y, g.z, h.xx, h.xy, h.xz, h.yy, h.yz, h.zz]
 }
 
 /// Columns of what is computed for the lanes `asked`; zeros in the others.
@@ -77,46 +68,26 @@ fn of_each<const N: usize>(asked: u64, compute: impl Fn(usize) -> [f64; N]) -> [
     )
 }
 
-impl AnySampler<'_, '_, f64> {
-    /// The kernel.
-    pub(crate) fn each(&self) -> &dyn Each {
-        match self {
-            Self::Trilinear(sampled) => sampled,
-            Self::Bspline(sampled) => sampled,
-            Self::BsplineSmooth(sampled) => sampled,
-            Self::Bspline5(sampled) => sampled,
-            Self::CatmullRom(sampled) => sampled,
-        }
-    }
-}
-
 /// Reads a field that [`fits_lanes`](Field::fits_lanes) by its kernel.
 #[derive(Clone, Copy)]
 pub(crate) struct EachReader<'f, 'v, S> {
     simd: S,
     field: &'f Field<'v, f64>,
-    each: &'f dyn Each,
 }
 
 impl<'f, 'v, S: Simd> EachReader<'f, 'v, S> {
-    /// Reads a field with its own kernel, `each`.
+    /// Reads a field with its own kernel.
     #[inline(always)]
-    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, each: &'f dyn Each) -> Self {
-        Self { simd, field, each }
+    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>) -> Self {
+        Self { simd, field }
     }
 }
 
 /// [`Reader::seconds`] of a field's kernel.
 #[inline(always)]
-pub(super) fn seconds<S: Simd>(
-    simd: S,
-    field: &Field<'_, f64>,
-    each: &dyn Each,
-    at: &Places<S>,
-    asked: mask64x8<S>,
-) -> Seconds<S> {
+pub(super) fn seconds<S: Simd>(simd: S, field: &Field<'_, f64>, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S> {
     let mut lanes = [f64x8::splat(simd, 0.0); 9];
-    for (lanes, numbers) in lanes.iter_mut().zip(each.seconds(&at.alone(), asked.to_bitmask())) {
+    for (lanes, numbers) in lanes.iter_mut().zip(field.seconds_of(&at.alone(), asked.to_bitmask())) {
         *lanes = numbers.simd_into(simd);
     }
     let [x, y, z, xx, xy, xz, yy, yz, zz] = lanes;
@@ -134,13 +105,13 @@ impl<S: Simd> Reader<S> for EachReader<'_, '_, S> {
 
     #[inline(always)]
     fn values(&self, at: &Places<S>, asked: mask64x8<S>) -> f64x8<S> {
-        let numbers = self.each.numbers(&at.alone(), asked.to_bitmask());
+        let numbers = self.field.numbers_of(&at.alone(), asked.to_bitmask());
         f64x8::simd_from(self.simd, numbers) * self.field.slope + self.field.intercept
     }
 
     #[inline(always)]
     fn gradients(&self, at: &Places<S>, asked: mask64x8<S>) -> Vec3<f64x8<S>> {
-        let [x, y, z] = self.each.gradients(&at.alone(), asked.to_bitmask());
+        let [x, y, z] = self.field.gradients_of(&at.alone(), asked.to_bitmask());
         let simd = self.simd;
         let index = Vec3::new(x.simd_into(simd), y.simd_into(simd), z.simd_into(simd));
         splat(simd, &self.field.to_world).apply(index)
@@ -148,6 +119,6 @@ impl<S: Simd> Reader<S> for EachReader<'_, '_, S> {
 
     #[inline(always)]
     fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S> {
-        seconds(self.simd, self.field, self.each, at, asked)
+        seconds(self.simd, self.field, at, asked)
     }
 }

@@ -7,8 +7,8 @@
 mod each;
 mod gradient;
 
+pub(crate) use self::each::EachReader;
 use self::each::seconds;
-pub(crate) use self::each::{Each, EachReader};
 
 use super::kernel::trilinear;
 use super::place::Place;
@@ -260,7 +260,7 @@ impl Field<'_, f64> {
     /// differences or Sobel's operator, at least four voxels on each axis. [`EachReader`] reads the other kernels if a
     /// sample's `looks` are expensive too; otherwise single rays are as fast.
     pub(crate) fn fits_lanes(&self, gradient: bool, looks: bool) -> bool {
-        if self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
+        if self.formula.is_some() || self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
             return false;
         }
         if !matches!(self.kernel, KernelData::Trilinear) {
@@ -300,7 +300,7 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
 
     #[inline(always)]
     fn seconds(&self, at: &Places<S>, asked: mask64x8<S>) -> Seconds<S> {
-        seconds(self.simd, self.field, &self.field.trilinear(), at, asked)
+        seconds(self.simd, self.field, at, asked)
     }
 }
 

@@ -5,8 +5,8 @@
 
 use super::super::seeds::Pyramid;
 use crate::field::Outside;
+use drypoint_scene::parallel;
 use drypoint_scene::volume::Volume;
-use rayon::prelude::*;
 
 /// The median of |x| of a normal variable x, in standard deviations.
 const MEDIAN: f64 = 0.674_489_750_196_081_7;
@@ -33,8 +33,10 @@ pub fn deviation(volume: &Volume, pyramid: &Pyramid, iso: f64, outside: Outside)
         (whole && inner).then_some(at)
     };
     let blocks = pyramid.blocks(iso, None);
-    let mut sizes: Vec<f64> =
-        blocks.par_iter().filter_map(|&block| place(block)).map(|at| difference(volume, at, differs).abs()).collect();
+    let mut sizes = parallel::gather(blocks.len(), 1 << 10, &|run, sizes| {
+        let places = blocks[run].iter().filter_map(|&block| place(block));
+        sizes.extend(places.map(|at| difference(volume, at, differs).abs()));
+    });
     sizes.retain(|size| size.is_finite());
     if axes == 0 || sizes.is_empty() {
         return 0.0;

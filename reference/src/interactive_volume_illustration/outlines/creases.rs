@@ -20,7 +20,6 @@ use crate::field::normal::outward;
 use crate::field::smoothed::Smoothed;
 use crate::number::{Sym3, Vec3};
 use crate::surface::IsoSurface;
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 
 /// Distance of the two places of a difference from their middle, in voxels: the scale of the smoothed field.
@@ -51,7 +50,7 @@ pub fn creases(surface: &IsoSurface<'_, '_>, angle: f64, noise: f64) -> CreaseSt
     let directions = PrincipalDirections::new(field, rule);
     let Some(smoothed) = directions.finest() else { return CreaseStrokes::default() };
     let crests = Crests { search: &search, directions: &directions, smoothed, least: angle.to_radians() / 2.0 };
-    let mut found = with_sampler!(field, |sampler| search.curves(sampler, &crests, &surface.bricks()));
+    let mut found = search.curves(field, &crests, &surface.bricks());
     // Edges of a larger radius are no creases.
     let reach = search.grid.voxel() / crests.least;
     found.strokes = cut_all(with_corners(surface, found.strokes, reach), surface.clip());

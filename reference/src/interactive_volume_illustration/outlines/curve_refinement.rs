@@ -1,6 +1,6 @@
 //! Newton's method onto a common zero of two functions ([HATCH-18]).
 
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::Vec3;
 use drypoint_scene::glam::{DVec2, DVec3};
 
@@ -21,8 +21,8 @@ const REACH: f64 = 1.75;
 const STEPS: u32 = 24;
 
 /// Moves places in index space along the shortest way onto f = iso, q = 0.
-pub(super) struct CurveRefinement<'s, S, Q> {
-    pub(super) sampler: &'s S,
+pub(super) struct CurveRefinement<'s, Q> {
+    pub(super) field: &'s Field<'s, f64>,
     /// Maps a value to f − iso, scaled.
     pub(super) over: &'s (dyn Fn(f64) -> f64 + Sync),
     /// q at a place, in index space.
@@ -31,9 +31,9 @@ pub(super) struct CurveRefinement<'s, S, Q> {
     pub(super) bounds: [DVec3; 2],
 }
 
-impl<S: Sampler<f64>, Q: Fn(DVec3) -> f64> CurveRefinement<'_, S, Q> {
+impl<Q: Fn(DVec3) -> f64> CurveRefinement<'_, Q> {
     fn both(&self, at: DVec3) -> DVec2 {
-        DVec2::new((self.over)(self.sampler.value(Vec3::from_glam(at))), (self.q)(at))
+        DVec2::new((self.over)(self.field.value(Vec3::from_glam(at))), (self.q)(at))
     }
 
     /// Newton's method for two equations with three unknowns. Each step is the shortest that solves the linear

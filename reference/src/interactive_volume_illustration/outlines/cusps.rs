@@ -10,10 +10,9 @@ use crate::field::Outside;
 use crate::field::Sampler;
 use crate::number::Vec3;
 use crate::surface::IsoSurface;
-use crate::with_sampler;
+use drypoint_scene::parallel;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 
 /// Distance of the two places of a difference along the line of sight from their middle, in voxels.
 const APART: f64 = 1.0;
@@ -29,17 +28,17 @@ pub fn before_cusps(surface: &IsoSurface<'_, '_>, view: &View, strokes: &[Stroke
     let outside = if field.reconstruction().outside == Outside::Low { 1.0 } else { -1.0 };
     let sign = outside * surface.front(view);
     let [lo, hi] = grid.index_box();
-    with_sampler!(field, |sampler| {
-        let facing = Facing { view, grid, sampler };
-        let is_seen = |vertex: &StrokeVertex| {
-            let towards = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
-            let slope = |s: f64| {
-                let at = grid.to_index(vertex.world + towards * (s * APART * grid.voxel())).clamp(lo, hi);
-                facing.product(at, sampler.gradient(Vec3::from_glam(at)))
-            };
-            (slope(1.0) - slope(-1.0)) * sign <= 0.0
+    let facing = Facing { view, grid, field };
+    let is_seen = |vertex: &StrokeVertex| {
+        let towards = if view.perspective { (view.eye - vertex.world).normalize_or_zero() } else { -view.forward };
+        let slope = |s: f64| {
+            let at = grid.to_index(vertex.world + towards * (s * APART * grid.voxel())).clamp(lo, hi);
+            facing.product(at, field.gradient(Vec3::from_glam(at)))
         };
-        strokes.par_iter().flat_map_iter(|stroke| parts(stroke, grid.voxel(), &is_seen)).collect()
+        (slope(1.0) - slope(-1.0)) * sign <= 0.0
+    };
+    parallel::gather(strokes.len(), 1, &|run, seen| {
+        seen.extend(strokes[run].iter().flat_map(|stroke| parts(stroke, grid.voxel(), &is_seen)));
     })
 }
 

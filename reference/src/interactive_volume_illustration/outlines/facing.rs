@@ -9,20 +9,20 @@
 use super::search::position;
 use super::second_function::SecondFunction;
 use super::tetrahedra::any_sign_change;
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
 /// g·v for a camera.
-pub(super) struct Facing<'a, S> {
+pub(super) struct Facing<'a> {
     pub(super) view: &'a View,
     pub(super) grid: &'a Grid,
-    pub(super) sampler: &'a S,
+    pub(super) field: &'a Field<'a, f64>,
 }
 
-impl<S: Sampler<f64>> Facing<'_, S> {
+impl Facing<'_> {
     /// g·v at a place in index space, v of length 1 towards the eye.
     pub(super) fn product(&self, at: DVec3, g: Vec3<f64>) -> f64 {
         let v = if self.view.perspective {
@@ -34,11 +34,11 @@ impl<S: Sampler<f64>> Facing<'_, S> {
     }
 }
 
-impl<S: Sampler<f64>> SecondFunction for Facing<'_, S> {
+impl SecondFunction for Facing<'_> {
     type Corner = f64;
 
     fn at_voxel(&self, voxel: [usize; 3]) -> f64 {
-        self.product(position(voxel), self.sampler.voxel_gradient(voxel))
+        self.product(position(voxel), self.field.voxel_gradient(voxel))
     }
 
     fn may_vanish(&self, corners: &[f64; 8]) -> bool {
@@ -50,7 +50,7 @@ impl<S: Sampler<f64>> SecondFunction for Facing<'_, S> {
     }
 
     fn near(&self, _start: DVec3) -> Option<impl Fn(DVec3) -> f64> {
-        Some(|at: DVec3| self.product(at, self.sampler.gradient(Vec3::from_glam(at))))
+        Some(|at: DVec3| self.product(at, self.field.gradient(Vec3::from_glam(at))))
     }
 
     fn holds(&self, _at: DVec3) -> bool {

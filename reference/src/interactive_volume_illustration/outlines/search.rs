@@ -13,18 +13,17 @@ use super::iso_difference::IsoDifference;
 use super::second_function::SecondFunction;
 use super::simplification::kept;
 use super::tetrahedra::{FACES, TETRAHEDRA, ValuePair, crossed, is_above, weights};
-use crate::field::Sampler;
 use crate::field::normal::outward;
+use crate::field::{Field, Sampler};
 use crate::number::Vec3;
 use crate::surface::IsoSurface;
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::parallel;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::tables::Outside;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Mask};
-use rayon::prelude::*;
 
 /// Largest distance of a stroke's segments from the curve, in voxels: half of an outline's tolerance.
 const CHORD: f64 = 0.005;
@@ -57,11 +56,9 @@ pub struct OutlineStrokes {
 /// Finds the outlines of a surface, whose field is prepared for gradients, for a camera.
 pub fn outlines(surface: &IsoSurface<'_, '_>, view: &View) -> OutlineStrokes {
     let search = CurveSearch::new(surface);
-    with_sampler!(surface.field(), |sampler| {
-        let bricks = surface.bricks();
-        let found = search.outlines(sampler, view, &bricks);
-        search.clipped(sampler, &bricks, surface.clip(), found)
-    })
+    let (field, bricks) = (surface.field(), surface.bricks());
+    let found = search.outlines(field, view, &bricks);
+    search.clipped(field, &bricks, surface.clip(), found)
 }
 
 /// The inputs of a search for curves, except the field and the second function.
@@ -90,47 +87,52 @@ impl<'a> CurveSearch<'a> {
         }
     }
 
-    pub(super) fn outlines<S: Sampler<f64>>(&self, sampler: &S, view: &View, bricks: &[[usize; 3]]) -> OutlineStrokes {
+    pub(super) fn outlines(&self, field: &Field<'_, f64>, view: &View, bricks: &[[usize; 3]]) -> OutlineStrokes {
         if self.grid.dims().contains(&1) {
             return OutlineStrokes::default();
         }
-        let mut found = self.curves(sampler, &Facing { view, grid: self.grid, sampler }, bricks);
-        let (chains, on_box) = joined(rim(self, sampler));
+        let mut found = self.curves(field, &Facing { view, grid: self.grid, field }, bricks);
+        let (chains, on_box) = joined(rim(self, field));
         let at = |key: u64| Some(on_box[on_box.partition_point(|place| place.0 < key)].1);
-        let rims = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 3, &at, &|_| None));
-        found.strokes.par_extend(rims);
+        found.strokes.extend(parallel::gather(chains.len(), 1, &|chain, rims| {
+            rims.extend(chains[chain].iter().flat_map(|chain| self.strokes(field, chain, 3, &at, &|_| None)));
+        }));
         found
     }
 
     /// The curves f = iso, q = 0 in some bricks.
-    pub(super) fn curves<S: Sampler<f64>, Q: SecondFunction>(
+    pub(super) fn curves<Q: SecondFunction>(
         &self,
-        sampler: &S,
+        field: &Field<'_, f64>,
         function: &Q,
         bricks: &[[usize; 3]],
     ) -> OutlineStrokes {
         if self.grid.dims().contains(&1) {
             return OutlineStrokes::default();
         }
-        let in_bricks = |brick: &[usize; 3]| self.in_brick(sampler, function, *brick);
-        let segments: Vec<[CurvePoint; 2]> = bricks.par_iter().flat_map_iter(in_bricks).collect();
+        let segments = parallel::gather(bricks.len(), 1, &|run, segments| {
+            bricks[run].iter().for_each(|brick| segments.extend(self.in_brick(field, function, *brick)));
+        });
         let (chains, found) = joined(segments);
         let onto_curve = |start: DVec3| {
             let over = &|value| self.level.over(value);
-            let refine = CurveRefinement { sampler, over, q: function.near(start)?, bounds: self.grid.index_box() };
+            let refine = CurveRefinement { field, over, q: function.near(start)?, bounds: self.grid.index_box() };
             refine.onto_curve(start)
         };
-        let holds = |at: &DVec3| self.normal(sampler, *at).is_some() && function.holds(*at);
-        let moved: Vec<Option<DVec3>> = found.par_iter().map(|place| onto_curve(place.1).filter(holds)).collect();
+        let holds = |at: &DVec3| self.normal(field, *at).is_some() && function.holds(*at);
+        let moved = parallel::gather(found.len(), 16, &|run, moved| {
+            moved.extend(found[run].iter().map(|place| onto_curve(place.1).filter(holds)));
+        });
         let (places, lost) = (found.len(), moved.iter().filter(|at| at.is_none()).count());
         let at = |key: u64| moved[found.partition_point(|place| place.0 < key)];
-        let turning = chains.par_iter().flat_map_iter(|chain| self.strokes(sampler, chain, 6, &at, &onto_curve));
-        let strokes: Vec<Stroke> = turning.collect();
+        let strokes = parallel::gather(chains.len(), 1, &|chain, turning| {
+            turning.extend(chains[chain].iter().flat_map(|chain| self.strokes(field, chain, 6, &at, &onto_curve)));
+        });
         OutlineStrokes { inside: strokes.len(), strokes, places: places as u64, lost: lost as u64 }
     }
 
-    fn normal<S: Sampler<f64>>(&self, sampler: &S, at: DVec3) -> Option<DVec3> {
-        outward(sampler.gradient(Vec3::from_glam(at)), self.outside, self.no_normal_below).map(Vec3::to_glam)
+    fn normal(&self, field: &Field<'_, f64>, at: DVec3) -> Option<DVec3> {
+        outward(field.gradient(Vec3::from_glam(at)), self.outside, self.no_normal_below).map(Vec3::to_glam)
     }
 
     /// The linear index of a voxel.
@@ -140,9 +142,9 @@ impl<'a> CurveSearch<'a> {
     }
 
     /// Segments of curves in the cells of a brick.
-    fn in_brick<S: Sampler<f64>, Q: SecondFunction>(
+    fn in_brick<Q: SecondFunction>(
         &self,
-        sampler: &S,
+        field: &Field<'_, f64>,
         function: &Q,
         brick: [usize; 3],
     ) -> Vec<[CurvePoint; 2]> {
@@ -155,7 +157,7 @@ impl<'a> CurveSearch<'a> {
         let mut over = [0.0; SIDE * SIDE * SIDE];
         for_each(cells.map(|n| n + 1), |voxel| {
             let index: [usize; 3] = std::array::from_fn(|a| first[a] + voxel[a]);
-            over[local(voxel)] = self.level.over(sampler.value(Vec3::from_glam(position(index))));
+            over[local(voxel)] = self.level.over(field.value(Vec3::from_glam(position(index))));
         });
         // q is computed only at corners of cells in which f − iso changes its sign.
         let mut second: Vec<Option<Q::Corner>> = vec![None; SIDE * SIDE * SIDE];
@@ -207,9 +209,9 @@ impl<'a> CurveSearch<'a> {
 
     /// Returns the strokes of a chain; several if places on it are lost. A place's key is its voxel's key followed by
     /// `bits` bits. `onto_curve` moves a nearby place onto the curve.
-    fn strokes<S: Sampler<f64>>(
+    fn strokes(
         &self,
-        sampler: &S,
+        field: &Field<'_, f64>,
         chain: &Chain,
         bits: u32,
         at: &(dyn Fn(u64) -> Option<DVec3> + Sync),
@@ -227,7 +229,7 @@ impl<'a> CurveSearch<'a> {
             let left: Vec<DVec3> = places.iter().zip(&is_kept).filter(|(_, kept)| **kept).map(|(at, _)| *at).collect();
             let vertex = |at: DVec3| {
                 let world = self.grid.to_world(at);
-                self.normal(sampler, at).map(|normal| StrokeVertex { world, normal, u: 0.0 })
+                self.normal(field, at).map(|normal| StrokeVertex { world, normal, u: 0.0 })
             };
             let bent = self.bent(left, closed, onto_curve);
             let mut stroke = Stroke { vertices: bent.into_iter().filter_map(vertex).collect(), closed, key };

@@ -4,16 +4,16 @@
 use super::search::{CurveSearch, OutlineStrokes, measure, position};
 use super::second_function::SecondFunction;
 use super::tetrahedra::any_sign_change;
-use crate::field::Sampler;
+use crate::field::Field;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes, ClippedParts};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 
 impl CurveSearch<'_> {
     /// Cuts outlines by planes, and adds the curves in which the planes cut the surface.
-    pub(super) fn clipped<S: Sampler<f64>>(
+    pub(super) fn clipped(
         &self,
-        sampler: &S,
+        field: &Field<'_, f64>,
         bricks: &[[usize; 3]],
         clip: &ClipPlanes,
         mut whole: OutlineStrokes,
@@ -26,7 +26,7 @@ impl CurveSearch<'_> {
         let mut left = OutlineStrokes { inside: strokes.len(), strokes, ..whole };
         left.strokes.extend(cut_all(on_box, clip));
         for (i, plane) in clip.0.iter().enumerate() {
-            let found = self.curves(sampler, &PlaneSection(plane), bricks);
+            let found = self.curves(field, &PlaneSection(plane), bricks);
             // A section lies on its own plane, so the other planes alone cut it.
             let others = clip.0.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, plane)| plane.clone());
             let others = ClipPlanes(others.collect());

@@ -7,7 +7,6 @@ use super::selection::{SeedRule, Seeds};
 use crate::field::Field;
 use crate::field::quantile_of_norms;
 use crate::number::Vec3;
-use crate::with_sampler;
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::tables::{GradientRange, Measure as Kind};
 
@@ -17,8 +16,7 @@ pub fn gradient_range(field: &Field<'_, f64>, range: GradientRange) -> ([f64; 2]
     match range {
         GradientRange::Fixed(range) => (range.map(|g| scale_by_power_of_two(g, -field.scale_exponent())), 0),
         GradientRange::Quantile(q) => {
-            let (estimator, bound) = (field.reconstruction().gradient, field.no_normal_below());
-            let (hi, voxels) = with_sampler!(field, |s| quantile_of_norms(s, field.volume(), estimator, bound, q));
+            let (hi, voxels) = quantile_of_norms(field, q);
             ([0.0, hi], voxels)
         }
     }

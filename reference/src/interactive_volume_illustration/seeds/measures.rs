@@ -1,7 +1,7 @@
 //! The quantities of a seed's probability, measured at the voxels of blocks (3.2; [HATCH-5]).
 
 use super::pyramid::{outwards, span};
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -30,20 +30,23 @@ pub(super) fn of_blocks(
     measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
 ) -> (Vec<LargestMeasure>, u64) {
     let asked = VoxelSet::new(blocks, dims);
-    let measured: Vec<LargestMeasure> = asked
-        .voxels()
-        .map(|at| {
-            let VoxelMeasure { gradient, curvature } =
-                measure([at % dims[0], at / dims[0] % dims[1], at / (dims[0] * dims[1])]);
-            LargestMeasure { gradient: outwards(gradient), curvature: outwards(curvature) }
-        })
-        .collect();
+    let measure_at = |at: usize| {
+        let VoxelMeasure { gradient, curvature } =
+            measure([at % dims[0], at / dims[0] % dims[1], at / (dims[0] * dims[1])]);
+        LargestMeasure { gradient: outwards(gradient), curvature: outwards(curvature) }
+    };
+    let measured = parallel::gather(asked.bits.len(), parallel::RUN, &|words, measured| {
+        measured.extend(asked.voxels(words).map(measure_at));
+    });
     let largest = |block: &[usize; 3]| {
         rows_of(*block, dims).flatten().map(|at| measured[asked.before(at)]).fold(LargestMeasure::default(), |a, b| {
             LargestMeasure { gradient: a.gradient.max(b.gradient), curvature: a.curvature.max(b.curvature) }
         })
     };
-    (blocks.par_iter().map(largest).collect(), measured.len() as u64)
+    (
+        parallel::gather(blocks.len(), parallel::RUN, &|run, all| all.extend(blocks[run].iter().map(largest))),
+        measured.len() as u64,
+    )
 }
 
 /// Rows of a block's voxels, as ranges of linear indices.
@@ -65,8 +68,8 @@ impl VoxelSet {
     fn new(blocks: &[[usize; 3]], dims: [usize; 3]) -> Self {
         let words = dims.iter().product::<usize>().div_ceil(64);
         let bits: Vec<AtomicU64> = (0..words).map(|_| AtomicU64::new(0)).collect();
-        blocks.par_iter().for_each(|&block| {
-            for at in rows_of(block, dims).flatten() {
+        parallel::each_of(blocks.chunks(parallel::RUN).collect(), &|_, blocks| {
+            for at in blocks.iter().flat_map(|&block| rows_of(block, dims).flatten()) {
                 let bit = 1 << (at % 64);
                 if bits[at / 64].load(Ordering::Relaxed) & bit == 0 {
                     bits[at / 64].fetch_or(bit, Ordering::Relaxed);
@@ -83,9 +86,9 @@ impl VoxelSet {
         Self { bits, before }
     }
 
-    /// Members in ascending order.
-    fn voxels(&self) -> impl ParallelIterator<Item = usize> {
-        self.bits.par_iter().enumerate().flat_map_iter(|(word, &bits)| {
+    /// Members in some words of bits, in ascending order.
+    fn voxels(&self, words: Range<usize>) -> impl Iterator<Item = usize> {
+        words.clone().zip(&self.bits[words]).flat_map(|(word, &bits)| {
             let next = |bits: &u64| Some(bits & (bits - 1)).filter(|rest| *rest != 0);
             let each = std::iter::successors(Some(bits).filter(|bits| *bits != 0), next);
             each.map(move |bits| 64 * word + bits.trailing_zeros() as usize)

@@ -5,9 +5,9 @@
 //! them.
 
 use crate::field::Columns;
+use drypoint_scene::parallel;
 use drypoint_scene::volume::{Volume, Voxel};
 use drypoint_scene::with_access;
-use rayon::prelude::*;
 use std::ops::Range;
 
 /// Ranges of values, level by level, and the largest curvatures if they are known everywhere.
@@ -42,10 +42,11 @@ pub(super) fn span(block: usize, voxels: usize) -> Range<usize> {
 
 impl<T: Copy + Send> PyramidLevel<T> {
     /// Builds a level of blocks from rows: `row` gets a row's y and z and returns its blocks.
-    fn of_rows(dims: [usize; 3], row: impl Fn([usize; 2]) -> Vec<T> + Sync) -> Self {
+    fn of_rows(dims: [usize; 3], row: &(dyn Fn([usize; 2]) -> Vec<T> + Sync)) -> Self {
         let blocks = cells_of(dims).map(|n| n.div_ceil(2));
-        let rows = (0..blocks[1] * blocks[2]).into_par_iter();
-        let entries = rows.flat_map_iter(|i| row([i % blocks[1], i / blocks[1]])).collect();
+        let entries = parallel::gather(blocks[1] * blocks[2], 1, &|rows, entries| {
+            rows.for_each(|i| entries.extend(row([i % blocks[1], i / blocks[1]])));
+        });
         Self { dims: blocks, entries }
     }
 
@@ -98,7 +99,7 @@ impl Pyramid {
                 (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
             })
         };
-        let ranges = PyramidLevel::of_rows(dims, row).levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let ranges = PyramidLevel::of_rows(dims, &row).levels(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         Self { ranges, curvatures: Vec::new(), cells: cells_of(dims), range }
     }
 
@@ -111,7 +112,7 @@ impl Pyramid {
             let of_block = |x| outwards(columns[span(x, dims[0])].iter().copied().fold(0.0, f64::max));
             (0..cells_of(dims)[0].div_ceil(2)).map(of_block).collect()
         };
-        Self { curvatures: PyramidLevel::of_rows(dims, row).levels(u8::max), ..self }
+        Self { curvatures: PyramidLevel::of_rows(dims, &row).levels(u8::max), ..self }
     }
 
     /// Number of the grid's cells along each axis.

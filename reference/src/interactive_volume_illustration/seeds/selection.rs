@@ -2,9 +2,9 @@
 
 use super::measures::{LargestMeasure, VoxelMeasure, of_blocks};
 use super::pyramid::{Pyramid, is_above};
+use drypoint_scene::parallel;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::volume::Volume;
-use rayon::prelude::*;
 
 /// The rule by which cells of an iso-surface get a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,7 +86,9 @@ impl Seeds {
         measure: impl Fn([usize; 3]) -> VoxelMeasure + Sync,
     ) -> Self {
         let has_one = |&block: &[usize; 3]| pyramid.cells_of_block(block).any(|cell| holds(volume, cell, &counts));
-        let blocks: Vec<[usize; 3]> = blocks.into_par_iter().filter(has_one).collect();
+        let blocks = parallel::gather(blocks.len(), parallel::RUN, &|run, kept| {
+            kept.extend(blocks[run].iter().copied().filter(has_one));
+        });
         let (largest, measured) = match rule {
             SeedRule::Dense => (vec![LargestMeasure::default(); blocks.len()], 0),
             SeedRule::Curvature { .. } => of_blocks(&blocks, volume.dims(), measure),
@@ -95,9 +97,10 @@ impl Seeds {
             let p = rule.probability(largest);
             pyramid.cells_of_block(block).filter(|&cell| holds(volume, cell, &counts)).map(move |cell| (cell, p))
         };
-        let mut cells: Vec<([usize; 3], f64)> =
-            blocks.par_iter().zip(&largest).flat_map_iter(|(block, largest)| of_block((block, largest))).collect();
-        cells.par_sort_unstable_by_key(|&([x, y, z], _)| [z, y, x]);
+        let mut cells = parallel::gather(blocks.len(), parallel::RUN, &|run, cells| {
+            cells.extend(blocks[run.clone()].iter().zip(&largest[run]).flat_map(of_block));
+        });
+        cells.sort_unstable_by_key(|&([x, y, z], _)| [z, y, x]);
         Self { cells, measured }
     }
 

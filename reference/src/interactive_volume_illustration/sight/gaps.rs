@@ -3,8 +3,8 @@
 
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Polyline, Vertex};
+use drypoint_scene::parallel;
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 
 /// Lines with gaps, and the number of cuts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -114,25 +114,21 @@ impl CutBy {
 /// Cuts the ways of at least `least` mm out of lines that lie within `gap` mm of segments.
 fn cut(lines: &[Polyline], all: &[PageSegment], view: &View, gap: f64, least: f64, by: CutBy) -> GappedLines {
     let grid = SegmentRaster::new(all, gap);
-    let each: Vec<(Vec<Polyline>, u64)> = lines
-        .par_iter()
-        .enumerate()
-        .map(|(number, line)| {
-            let own: Vec<PageSegment> = segments(line, number, view).collect();
-            let mut out: Vec<Vec<[f64; 2]>> = own
-                .iter()
-                .map(|segment| {
-                    let near = grid.near(segment, gap).map(|i| &all[i]).filter(|other| other.line != number);
-                    segment.beside_each(near, gap, by)
-                })
-                .collect();
-            if least > 0.0 {
-                without_short_ways(&own, &mut out, least);
-            }
-            let cuts = out.iter().filter(|out| !out.is_empty()).count() as u64;
-            (if cuts == 0 { vec![line.clone()] } else { left(&own, &out, line.closed) }, cuts)
-        })
-        .collect();
+    let each = parallel::map_of(lines.iter().collect(), &|number, line: &Polyline| {
+        let own: Vec<PageSegment> = segments(line, number, view).collect();
+        let mut out: Vec<Vec<[f64; 2]>> = own
+            .iter()
+            .map(|segment| {
+                let near = grid.near(segment, gap).map(|i| &all[i]).filter(|other| other.line != number);
+                segment.beside_each(near, gap, by)
+            })
+            .collect();
+        if least > 0.0 {
+            without_short_ways(&own, &mut out, least);
+        }
+        let cuts = out.iter().filter(|out| !out.is_empty()).count() as u64;
+        (if cuts == 0 { vec![line.clone()] } else { left(&own, &out, line.closed) }, cuts)
+    });
     let cuts = each.iter().map(|(_, cuts)| cuts).sum();
     GappedLines { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), cuts }
 }

@@ -10,9 +10,9 @@ use drypoint_scene::clip::{ClipPlanes, ClippedParts};
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Page, Polyline, Vertex, color_between};
+use drypoint_scene::parallel;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
 use drypoint_scene::view::View;
-use rayon::prelude::*;
 
 /// Distance of visibility tests along a segment, in pixels.
 const APART: f64 = 0.5;
@@ -97,7 +97,7 @@ impl Sight<'_> {
 
     fn each<S: Sync>(&self, strokes: &[S], ends: impl Fn(&S) -> (Vec<PennedVertex>, bool) + Sync) -> VisibleLines {
         let front = self.surface.map_or(1.0, |surface| surface.front(self.view));
-        let each = strokes.par_iter().map(|stroke| {
+        let each = parallel::map_of(strokes.iter().collect(), &|_, stroke| {
             let mut walk = VisibilityTrace {
                 sight: self,
                 onto: PageProjection::new(self.view, self.page, self.near),
@@ -108,7 +108,6 @@ impl Sight<'_> {
             let lines = walk.lines(ends, closed);
             (lines, walk.looks)
         });
-        let each: Vec<(Vec<Polyline>, u64)> = each.collect();
         let looks = each.iter().map(|(_, looks)| looks).sum();
         VisibleLines { lines: each.into_iter().flat_map(|(lines, _)| lines).collect(), looks }
     }

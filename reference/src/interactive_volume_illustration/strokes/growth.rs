@@ -14,10 +14,10 @@ use crate::field::curvature::Curvature;
 use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::{cos, scale_by_power_of_two};
+use drypoint_scene::parallel;
 use drypoint_scene::philox::uniform;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
-use rayon::prelude::*;
 
 /// The share by which one |κ| must exceed the other to count as larger.
 const TIE: f64 = 0.01;
@@ -305,7 +305,7 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
             let made: Vec<_> = order.iter().filter_map(of).collect();
             (made, counts)
         };
-        let all: Vec<_> = order.par_chunks(AT_ONCE).map(some).collect();
+        let all = parallel::map_of(order.chunks(AT_ONCE).collect(), &|_, order| some(order));
         let mut grown = GrownStrokes::default();
         let mut strokes: Vec<_> = (0..cells.len()).map(|_| None).collect();
         for (made, counts) in all {

@@ -3,7 +3,6 @@
 use crate::field::normal::outward;
 use crate::field::{Field, Outside, Sampler};
 use crate::number::{Sym3, Vec3};
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
 
@@ -86,15 +85,15 @@ impl StrokeField for Field<'_, f64> {
     }
 
     fn value(&self, index: Vec3<f64>) -> f64 {
-        with_sampler!(self, |s| s.value(index))
+        Sampler::value(self, index)
     }
 
     fn gradient(&self, index: Vec3<f64>) -> Vec3<f64> {
-        with_sampler!(self, |s| s.gradient(index))
+        Sampler::gradient(self, index)
     }
 
     fn second(&self, index: Vec3<f64>) -> (Vec3<f64>, Sym3<f64>) {
-        with_sampler!(self, |s| s.hessian(index))
+        self.hessian(index)
     }
 
     fn second_at_voxel(&self, voxel: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {

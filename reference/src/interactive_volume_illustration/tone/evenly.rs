@@ -8,9 +8,9 @@ use super::super::strokes::{HatchCounts, RejectCause, StrokeGrower, inside, norm
 use super::line_spacing::LineSpacing;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Polyline;
+use drypoint_scene::parallel;
 use drypoint_scene::philox::uniforms;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
-use rayon::prelude::*;
 
 /// Number of strokes that are grown in parallel before any of them takes its place.
 const GROUP: usize = 256;
@@ -71,9 +71,11 @@ impl StrokeGrower<'_, '_> {
         spread: &mut LineSpacing,
     ) -> EvenStrokes {
         // Visible places of all cells, in random order.
-        let mut candidates: Vec<StrokeCandidate> =
-            cells.par_iter().flat_map_iter(|&cell| self.candidates(sight, cell, seed, spread.least(), &tone)).collect();
-        candidates.par_sort_by(|a, b| a.order.total_cmp(&b.order).then(a.cell.cmp(&b.cell)));
+        let mut candidates = parallel::gather(cells.len(), 64, &|run, all| {
+            let of_cell = |&cell: &[usize; 3]| self.candidates(sight, cell, seed, spread.least(), &tone);
+            all.extend(cells[run].iter().flat_map(of_cell));
+        });
+        candidates.sort_by(|a, b| a.order.total_cmp(&b.order).then(a.cell.cmp(&b.cell)));
         let mut even = EvenStrokes { seen: candidates.len() as u64, ..EvenStrokes::default() };
         let mut left = candidates.iter();
         loop {
@@ -92,11 +94,10 @@ impl StrokeGrower<'_, '_> {
             };
             let bare = Sight { surface: None, ..*sight };
             let has_room = |stroke: &Stroke| spread.has_room(&bare.seen(std::slice::from_ref(stroke), ink).lines);
-            let grown: Vec<(Option<Stroke>, HatchCounts)> = group
-                .par_iter()
-                .map(|candidate| self.stroke_of(candidate, along))
-                .map(|(stroke, counts)| (stroke.filter(has_room), counts))
-                .collect();
+            let grown = parallel::map(group.len(), &|i| {
+                let (stroke, counts) = self.stroke_of(group[i], along);
+                (stroke.filter(has_room), counts)
+            });
             even.tried += group.len() as u64;
             let mut strokes = Vec::new();
             for (candidate, (stroke, counts)) in group.iter().zip(grown) {

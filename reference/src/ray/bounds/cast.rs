@@ -4,7 +4,7 @@ use super::moved_ray::{MovedRay, with_errors_of};
 use super::positions::{Answer, RayOrigin};
 use super::surface::{BoundedHit, Met, SurfaceErrors, at_depth};
 use crate::accumulator::Accumulator;
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::ways::{self, Ways};
 use crate::number::{Bounded, Decision, Real, Vec3};
 use crate::ray::lattice::IndexRay;
@@ -30,9 +30,9 @@ struct Shown {
 }
 
 /// Follows the ray through a point of the picture, in pixels from the top left corner.
-pub(super) fn trace<S: Sampler<Bounded>>(
+#[inline]
+pub(super) fn trace(
     prepared: &Prepared<'_, Bounded>,
-    sampler: &S,
     [i, j]: [f64; 2],
     origin: RayOrigin,
     surface: Option<&SurfaceErrors>,
@@ -50,7 +50,7 @@ pub(super) fn trace<S: Sampler<Bounded>>(
         steps = Bounded::new(steps.value(), (moved.step / Bounded::from_f64(object.reference_length)).error());
     }
     let dirs = object.shader.view_dirs(v, v_eye);
-    let evaluator = Evaluator::new(object, sampler, ray, dirs, &prepared.eye_axes);
+    let evaluator = Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes);
     let mut tracer = Tracer {
         prepared,
         evaluator,
@@ -71,19 +71,20 @@ pub(super) fn trace<S: Sampler<Bounded>>(
 }
 
 /// A ray on its way.
-struct Tracer<'p, 'v, S> {
+struct Tracer<'p, 'v> {
     prepared: &'p Prepared<'v, Bounded>,
-    evaluator: Evaluator<'p, 'v, Bounded, S>,
+    evaluator: Evaluator<'p, 'v, Bounded, Field<'v, Bounded>>,
     /// Δ_ray/Δ₀.
     steps: Bounded,
     traced: Traced,
 }
 
-impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
+impl Tracer<'_, '_> {
     /// The place at which the ray ends on the iso-surface; none: nowhere.
+    #[inline]
     fn hit(&mut self, errors: &SurfaceErrors) -> Option<BoundedHit> {
-        let (object, ray) = (&self.prepared.object, &self.evaluator.ray);
-        match errors.first(self.prepared, (self.evaluator.sampler, &object.field), ray, ray.errors()) {
+        let ray = &self.evaluator.ray;
+        match errors.first(self.prepared, ray, ray.errors()) {
             Met::Nowhere => None,
             Met::At(hit) => Some(hit),
             Met::Open(t) => {
@@ -94,6 +95,7 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
     }
 
     /// Visits all samples that an f32 renderer may visit, up to the iso-surface. Returns whether the ray is still open.
+    #[inline]
     fn samples(&mut self, hit: Option<BoundedHit>) -> bool {
         let (object, ray) = (&self.prepared.object, self.evaluator.ray);
         let [first, last] = ray.candidates(object.ends);
@@ -144,6 +146,7 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
     }
 
     /// Lays the iso-surface behind the samples.
+    #[inline]
     fn surface(&mut self, hit: BoundedHit) {
         let Some(surface) = &self.prepared.surface else { return };
         let (ray, v) = (self.evaluator.ray, self.evaluator.dirs.v);
@@ -180,11 +183,13 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
     }
 
     /// A sample on all ways that are open to it, so many reference lengths long; none where it is clear on all.
+    #[inline]
     fn shown(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
         self.merged(|tracer| tracer.shaded(k, steps))
     }
 
     /// The sample as it is shown on all ways. Decisions at which they part are marked.
+    #[inline]
     fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
         let Ways { by_value, others, too_many } = ways::follow(|| shown(self));
         if too_many {
@@ -201,6 +206,7 @@ impl<S: Sampler<Bounded>> Tracer<'_, '_, S> {
     }
 
     /// A sample on one way.
+    #[inline]
     fn shaded(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
         let (object, counts) = (&self.prepared.object, &mut Counts::default());
         // The normal before would be that of one way.

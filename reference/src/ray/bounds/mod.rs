@@ -2,6 +2,9 @@
 //!
 //! The picture is computed as ever, to the same bits, but on numbers that know their errors ([`Bounded`]). Where a
 //! [`Decision`] is open and shows, the pixel is undecided, and no renderer is held to its bound there.
+//!
+//! Functions here that evaluate samples are `#[inline]`: the code of samples for [`Bounded`] is then compiled in the crates
+//! that ask for bounds, and not in this one, where no picture needs it.
 
 mod cast;
 mod moved_ray;
@@ -16,16 +19,15 @@ use super::prepare::prepare;
 use super::prepared::Prepared;
 use super::render::Renderer;
 use crate::accumulator::Accumulator;
-use crate::field::{Kernel, Sampler};
+use crate::field::Kernel;
 use crate::number::{Bounded, Decision, Real};
-use crate::with_sampler;
 use cast::Traced;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::parallel;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::volume::Volume;
-use rayon::prelude::*;
 use surface::SurfaceErrors;
 
 /// A picture with bounds.
@@ -65,6 +67,7 @@ impl Renderer<'_> {
     /// # Errors
     /// See [`Renderer::new`]. Halos, further layers, functions that are read from a table, and rays that are added at edges have
     /// no bounds.
+    #[inline]
     pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
         let is_elsewhere = |further: &&Volume| further.grid() != inputs.volume.grid();
@@ -85,26 +88,21 @@ impl Renderer<'_> {
         }
         // What cannot be seen can be looked at by an f32 renderer.
         (prepared.skip, prepared.cells) = (None, None);
-        Ok(with_sampler!(prepared.object.field, |sampler| draw(&prepared, sampler, inputs, origin)))
+        Ok(draw(&prepared, inputs, origin))
     }
 }
 
 /// Draws all pixels.
-fn draw<S: Sampler<Bounded>>(
-    prepared: &Prepared<'_, Bounded>,
-    sampler: &S,
-    inputs: Inputs<'_>,
-    origin: RayOrigin,
-) -> Bounds {
+#[inline]
+fn draw(prepared: &Prepared<'_, Bounded>, inputs: Inputs<'_>, origin: RayOrigin) -> Bounds {
     let [width, height] = prepared.view.size;
     let surface = prepared.surface.as_ref();
     let surface = surface.map(|surface| SurfaceErrors::new(&prepared.object.field, surface.roots.iso()));
     let behind = behind(inputs.background, width);
-    let pixel = |at: usize| {
+    let pixels: Vec<BoundedPixel> = parallel::map(width * height, &|at| {
         let at = [at % width, at / width];
-        draw_pixel(prepared, sampler, (at, behind(at)), origin, surface.as_ref())
-    };
-    let pixels: Vec<BoundedPixel> = (0..width * height).into_par_iter().map(pixel).collect();
+        draw_pixel(prepared, (at, behind(at)), origin, surface.as_ref())
+    });
     let picture = |number: fn(Bounded) -> f64| {
         let channels = (0..4).map(|c| pixels.iter().map(|pixel| number(pixel.rgba[c])).collect()).collect();
         Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
@@ -117,9 +115,9 @@ fn draw<S: Sampler<Bounded>>(
 }
 
 /// Draws a pixel: the mean of its rays over the background.
-fn draw_pixel<S: Sampler<Bounded>>(
+#[inline]
+fn draw_pixel(
     prepared: &Prepared<'_, Bounded>,
-    sampler: &S,
     ([i, j], behind): ([usize; 2], Rgba),
     origin: RayOrigin,
     surface: Option<&SurfaceErrors>,
@@ -130,7 +128,7 @@ fn draw_pixel<S: Sampler<Bounded>>(
     for part in 0..n * n {
         let centre = |pixel: usize, part: usize| pixel as f64 + (part as f64 + 0.5) / n as f64;
         let Traced { front, undecided: of_ray } =
-            cast::trace(prepared, sampler, [centre(i, part % n), centre(j, part / n)], origin, surface);
+            cast::trace(prepared, [centre(i, part % n), centre(j, part / n)], origin, surface);
         undecided = undecided.or(of_ray);
         for (sum, c) in sum.iter_mut().zip(over(front, behind, prepared.encode)) {
             *sum += c;

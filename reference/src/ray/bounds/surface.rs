@@ -1,6 +1,6 @@
 //! The iso-surface on a ray, and the depths between which an f32 renderer meets it.
 
-use crate::field::{Field, Sampler};
+use crate::field::Field;
 use crate::number::{Bounded, Vec3};
 use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
@@ -68,20 +68,15 @@ impl SurfaceErrors {
 
     /// The first place at which a ray meets the surface. A value in f32 is within e of the field's, so that an f32 renderer
     /// meets iso no sooner than the field first has iso ± e on its side, and no later than it has had both.
-    pub(super) fn first<S: Sampler<Bounded>>(
-        &self,
-        prepared: &Prepared<'_, Bounded>,
-        (sampler, field): (&S, &Field<'_, Bounded>),
-        ray: &IndexRay<Bounded>,
-        errors: [f64; 3],
-    ) -> Met {
+    #[inline]
+    pub(super) fn first(&self, prepared: &Prepared<'_, Bounded>, ray: &IndexRay<Bounded>, errors: [f64; 3]) -> Met {
         let Some(surface) = &prepared.surface else { return Met::Nowhere };
         let near = match prepared.view.perspective {
             true => prepared.lattice.near * (ray.depth_step.value() / prepared.lattice.step),
             false => f64::NEG_INFINITY,
         };
-        let (range, mask) = ([near, f64::INFINITY], prepared.object.volume.mask());
-        let first = |roots: &RootFinder| roots.first(sampler, mask, ray.line(), range);
+        let (field, mask) = (&prepared.object.field, prepared.object.volume.mask());
+        let first = |roots: &RootFinder| roots.first(field, mask, ray.line(), [near, f64::INFINITY]);
         let off = self.roundings + (0..3).map(|axis| self.slopes[axis] * errors[axis]).sum::<f64>();
         let iso = surface.roots.iso();
         let [below, above] = [-off, off].map(|off| first(&RootFinder::new(field, iso + off, None)));

@@ -5,7 +5,7 @@ use super::cast::Cast;
 use super::object_ray::ObjectRay;
 use super::seed_rays::SeedRays;
 use super::waiting_tile::{ENDED, WaitingTile};
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::Real;
 use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
@@ -13,14 +13,14 @@ use crate::ray::prepared_halos::PreparedHalos;
 use crate::ray::tile_work::{TileRays, TileWork};
 use crate::volumetric_halos::HaloPlanes;
 use drypoint_scene::counts::Counts;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// The results of the rays of each tile, in their order.
 type Casts = Vec<(Vec<Cast>, Counts)>;
 
 /// Bytes for the rays of a region with halos, at the most: their states with a short path each, those of the seed rays, the
 /// objects on all of them, and the images.
-pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(
+pub(crate) fn bytes_with_halos<R: Real>(
     prepared: &Prepared<'_, R>,
     halos: &PreparedHalos<'_>,
     [width, height]: [usize; 2],
@@ -30,8 +30,8 @@ pub(crate) fn bytes_with_halos<R: Real, S: Sampler<R>>(
     let images = HaloPlanes::BYTES_OF_PIXEL * halos.list.len() as u64;
     let of_band = with_guard(width).saturating_mul(with_guard(height));
     let objects = prepared.combination.as_ref().map_or(0, |objects| ObjectRay::most_bytes(objects) + SLOT);
-    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, S>::BYTES_OF_RAY + objects);
-    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, S>::BYTES_OF_RAY + objects + images))
+    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, Field<'_, R>>::BYTES_OF_RAY + objects);
+    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, Field<'_, R>>::BYTES_OF_RAY + objects + images))
 }
 
 /// Bytes of the place of the objects of a ray, and of two more ranges of samples.
@@ -59,14 +59,14 @@ pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampl
 pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
     (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
     sampler: &S,
-    tiles: impl IndexedParallelIterator<Item = TileRays>,
+    tiles: Vec<TileRays>,
     region: Region,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Casts {
     let mut planes = HaloPlanes::new(&halos.list, region.size);
     let watched = halos.watched();
     let mut tiles: Vec<WaitingTile<'_, '_, R, S>> =
-        tiles.map(|tile| WaitingTile::new(prepared, sampler, tile, watched)).collect();
+        parallel::map_of(tiles, &|_, tile| WaitingTile::new(prepared, sampler, tile, watched));
     let mut counts = Counts::default();
     let mut seeds = SeedRays::new(prepared, halos, sampler, region, planes.size(), &mut counts);
     counts.bytes.insert("rays".into(), tiles.iter().map(WaitingTile::bytes).sum());
@@ -93,9 +93,12 @@ pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
         };
         // Compositing.
         if planes.reach_all_rays() {
-            tiles.par_iter_mut().for_each(|tile| tile.visit_glowing([begin, end], &planes));
+            parallel::each_of(tiles.iter_mut().collect(), &|_, tile: &mut WaitingTile<'_, '_, R, S>| {
+                tile.visit_glowing([begin, end], &planes);
+            });
         } else {
-            tiles.par_iter_mut().filter(|tile| tile.next <= end).for_each(|tile| tile.visit_tinted(end, &planes));
+            let waiting = tiles.iter_mut().filter(|tile| tile.next <= end).collect();
+            parallel::each_of(waiting, &|_, tile: &mut WaitingTile<'_, '_, R, S>| tile.visit_tinted(end, &planes));
         }
         // Seeds count as long as a pixel in their reach is open.
         let open: Vec<bool> = tiles.iter().map(|tile| tile.is_open).collect();
@@ -111,7 +114,7 @@ pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
         progress((ended.min(last) - first) as f64 / (last - first).max(1) as f64);
     }
     counts.halo_passes += planes.passes();
-    let mut casts: Casts = tiles.into_par_iter().map(WaitingTile::finish).collect();
+    let mut casts: Casts = parallel::map_of(tiles, &|_, tile| tile.finish());
     if let Some((_, of_first)) = casts.first_mut() {
         of_first.add(&counts);
     }

@@ -97,8 +97,7 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         let on_surface = prepared.surface.as_ref().and_then(|surface| {
             let mask = object.volume.mask();
             let clipped = Clipped { clip: &object.clip.planes, outside: object.outside };
-            let (sampler, range) = (self.evaluator.sampler, [near, f64::INFINITY]);
-            surface.roots.first_left(sampler, mask, ray.line(), range, clipped)
+            surface.roots.first_left(&object.field, mask, ray.line(), [near, f64::INFINITY], clipped)
         });
         let on_mesh = prepared.meshes.as_ref().and_then(|meshes| meshes.nearest(ray, near));
         End::nearer(on_surface, on_mesh)

@@ -285,7 +285,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     /// Visits samples of the background, or of a picture without objects. Returns whether the ray is still open.
     #[inline(always)]
     fn run_background<N: Need>(&mut self, visit: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
-        if S::AT_ONCE > 1 {
+        if self.evaluator.sampler.at_once() > 1 {
             self.run_ahead::<N>(visit, tint, counts)
         } else {
             self.run_by_cells::<N>(visit, tint, counts)
@@ -302,7 +302,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let mut values = [R::ZERO; MOST_AT_ONCE];
         let mut k = first;
         'samples: while k <= last {
-            let n = (last - k + 1).min(S::AT_ONCE as i64) as usize;
+            let n = (last - k + 1).min(self.evaluator.sampler.at_once() as i64) as usize;
             let values = &mut values[..n.min(MOST_AT_ONCE)];
             self.evaluator.sampler.values(|i| self.evaluator.ray.position(k + i as i64), values);
             for (k, &s) in (k..).zip(&*values) {

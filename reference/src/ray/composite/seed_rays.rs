@@ -17,7 +17,7 @@ use crate::ray::prepared_seeds::PreparedSeeds;
 use crate::ray::sample::{Evaluator, EyeAxes, Sample};
 use crate::volumetric_halos::{HaloPlanes, SeedStrip};
 use drypoint_scene::counts::Counts;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 use std::ops::Range;
 
 /// Rays along the side of a tile.
@@ -79,7 +79,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
             let tiles: Vec<_> = (0..size[0].div_ceil(SIDE)).map(tile).collect();
             (tiles, counts)
         };
-        let aimed: Vec<(Vec<_>, Counts)> = (0..size[1].div_ceil(SIDE)).into_par_iter().map(aim).collect();
+        let aimed: Vec<(Vec<_>, Counts)> = parallel::map(size[1].div_ceil(SIDE), &aim);
         let add = |(tiles, own): (Vec<_>, Counts)| {
             counts.add(&own);
             tiles
@@ -121,7 +121,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     pub(super) fn visit(&mut self, last: i64, planes: &mut HaloPlanes<'_>, counts: &mut Counts) {
         let (prepared, halos) = (self.prepared, self.halos);
         let strips = planes.seed_strips(SIDE);
-        let visit = |(tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
+        let visit = |_, (tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
             let (mut counts, mut scratch) = (Counts::default(), SeedScratch::new(halos.list.len()));
             for tile in tiles.iter_mut().filter(|tile| tile.next <= last) {
                 let rays = tile.planes.iter_mut().zip(&mut tile.rays).enumerate();
@@ -142,7 +142,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
             }
             (strip.seeded(), counts)
         };
-        let done: Vec<(Vec<bool>, Counts)> = self.strips.par_iter_mut().zip(strips).map(visit).collect();
+        let done = parallel::map_of(self.strips.iter_mut().zip(strips).collect(), &visit);
         for (seeded, own) in done {
             planes.note_seeded(&seeded);
             counts.add(&own);

@@ -33,7 +33,7 @@ use super::sample::Shader;
 use super::sample::need::Needs;
 use super::tile_work::TileWork;
 use crate::field::AnySampler;
-use crate::field::lanes::{Each, EachReader, LANES, LaneReader, Packed, Reader};
+use crate::field::lanes::{EachReader, LANES, LaneReader, Packed, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, wide};
 use drypoint_scene::counts::Counts;
@@ -108,7 +108,7 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
                 Voxels::I16(data) => run(prepared, packets, data, counts),
                 _ => unreachable!("lanes serve trilinear numbers of 8 and 16 bits alone"),
             },
-            dear => run_each(prepared, packets, dear.each(), counts),
+            AnySampler::Any(_) => run_each(prepared, packets, counts),
         }
         for (packet, points) in packets.iter().zip(points.chunks(LANES)) {
             for lane in 0..points.len() {
@@ -133,14 +133,14 @@ fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], 
 }
 
 /// Casts the rays of packets in styles through a field that is asked for one position after the other.
-fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], each: &dyn Each, counts: &mut Counts) {
+fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], counts: &mut Counts) {
     let Shader::Style(styled) = &prepared.object.shader else {
         unreachable!("lanes serve dear kernels in styles alone")
     };
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.object.field, each), counts),
+            || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.object.field), counts),
         );
     }
 }

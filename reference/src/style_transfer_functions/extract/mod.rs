@@ -24,11 +24,11 @@ mod polygon;
 pub use error::ExtractError;
 
 use drypoint_scene::color::Rgba;
+use drypoint_scene::parallel;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::style::{MAX_SIDE, SourcePicture, is_inside};
 use ellipse::Ellipse;
 use patch::Patch;
-use rayon::prelude::*;
 
 /// The largest coordinate or length of a region, in pixels: beyond every picture.
 pub const LARGEST: f64 = 1e7;
@@ -122,7 +122,7 @@ fn ellipse_texels(source: &SourcePicture, ellipse: Ellipse, side: usize) -> Resu
     overlap(source, low, high)?;
     let patch = Patch::new(source, low, high, |x, y| ellipse.contains(x, y)).ok_or(ExtractError::Empty)?;
     let texel = |t: usize| is_inside(side, t % side, t / side).then(|| mean(&patch, ellipse, side, t)).flatten();
-    Ok((0..side * side).into_par_iter().map(texel).collect())
+    Ok(parallel::gather(side * side, side, &|row, texels| texels.extend(row.map(texel))))
 }
 
 /// The mean over the square of texel t, as far as it lies in the disk and the picture shows it.

@@ -6,11 +6,11 @@ use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::transfer::Coordinate;
 use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::parallel;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::LabelLookup;
 use drypoint_scene::volume::Volume;
 use drypoint_scene::volume::labels::LabelVolume;
-use rayon::prelude::*;
 use rstar::RTree;
 
 /// The distance of every voxel of the data to the nearest voxel centre with a label, trilinear between voxels. It is
@@ -36,7 +36,7 @@ impl<R: Real> LabelDistance<R> {
         let (centres, from) = (RTree::bulk_load(centres), data.origin() - lies.origin());
         let [nx, ny, _] = data.dims();
         let mut distances = vec![R::ZERO; data.len()];
-        distances.par_chunks_mut(nx).enumerate().for_each(|(row, distances)| {
+        parallel::chunks_mut(&mut distances, nx, &|row, distances| {
             for (x, distance) in distances.iter_mut().enumerate() {
                 let index = DVec3::new(x as f64, (row % ny) as f64, (row / ny) as f64);
                 if labels.id_at(Vec3::<f64>::from_glam(index)) != id {
@@ -92,9 +92,11 @@ fn centres(grid: &Grid, has: &(impl Fn(usize) -> bool + Sync), surface: bool) ->
         let (Some(xs), Some(ys), Some(zs)) = (around(x, nx), around(y, ny), around(z, nz)) else { return false };
         zs.into_iter().all(|z| ys.clone().all(|y| xs.clone().all(|x| has((z * ny + y) * nx + x))))
     };
-    let voxels = (0..grid.len()).into_par_iter().filter(|&i| has(i)).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
-    let kept = voxels.filter(|&voxel| !(surface && is_interior(voxel)));
-    kept.map(|voxel| (grid.axes() * DVec3::from_array(voxel.map(|i| i as f64))).to_array()).collect()
+    parallel::gather(grid.len(), nx, &|row, centres| {
+        let voxels = row.filter(|&i| has(i)).map(|i| [i % nx, i / nx % ny, i / nx / ny]);
+        let kept = voxels.filter(|&voxel| !(surface && is_interior(voxel)));
+        centres.extend(kept.map(|voxel| (grid.axes() * DVec3::from_array(voxel.map(|i| i as f64))).to_array()));
+    })
 }
 
 /// Whether the columns of D are a Minkowski-reduced basis. Then the Voronoi neighbours of a voxel are among its 26

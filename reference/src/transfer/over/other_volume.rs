@@ -4,7 +4,6 @@ use super::{AxisMeasure, SampleQuantities};
 use crate::field::{Field, FieldError, HessianEstimator, Reconstruction, Rung, Sampler};
 use crate::number::{Real, Vec3};
 use crate::transfer::Coordinate;
-use crate::with_sampler;
 use drypoint_scene::other_grid::OtherGrid;
 use drypoint_scene::volume::{Anatomy, Volume};
 
@@ -38,11 +37,9 @@ impl<R: Real> AxisMeasure<R> for OtherVolume<'_, R> {
             Some(map) => map.position(here.position.to_glam()).map(Vec3::from_glam),
         };
         let value = position.and_then(|p| {
-            with_sampler!(self.field, |s| {
-                let at = s.place(p);
-                let known = self.field.volume().mask().is_none_or(|mask| !mask.touches_cell(at.cell));
-                known.then(|| s.value_at(at))
-            })
+            let at = self.field.place(p);
+            let known = self.field.volume().mask().is_none_or(|mask| !mask.touches_cell(at.cell));
+            known.then(|| self.field.value_at(at))
         });
         Coordinate::Number(value.unwrap_or(self.low))
     }

@@ -17,7 +17,7 @@ use super::pool::{Class, Site};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use drypoint_scene::blue_noise;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// Number of times that each voxel takes its first point.
 const SWEEPS: u32 = 4;
@@ -85,7 +85,7 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
     // Voxels of a class do not affect each other, so all of them take their points in parallel.
     for sweep in 0..SWEEPS {
         for class in class_order::<CLASSES>(sites.seed, sweep, OF_SWEEPS) {
-            let take = |work: &mut FirstPointBuffers, &i: &usize| {
+            let take = |work: &mut FirstPointBuffers, i: usize| {
                 let home = &classes[class_of(cells[i])];
                 let index = ids[i] as usize - home.start;
                 let slot = widely(
@@ -97,8 +97,10 @@ pub(super) fn first_points(sites: &Sites<'_>, classes: &[Class], ids: &[u32]) ->
                 );
                 TakenPoint { at: scaled(sites, home.point(sites, index, slot)), tone: taken[i].tone, slot: slot as u32 }
             };
-            let found: Vec<TakenPoint> =
-                members[class].par_iter().with_min_len(64).map_init(FirstPointBuffers::default, take).collect();
+            let found = parallel::gather(members[class].len(), 64, &|run, found| {
+                let mut work = FirstPointBuffers::default();
+                found.extend(members[class][run].iter().map(|&i| take(&mut work, i)));
+            });
             for (&i, found) in members[class].iter().zip(found) {
                 taken[i] = found;
             }
@@ -212,7 +214,7 @@ impl NearVoxels {
             }
             NearVoxelsPart { all, ends }
         };
-        Self { parts: sites.cells.par_chunks(PART).map(part).collect() }
+        Self { parts: parallel::map_of(sites.cells.chunks(PART).collect(), &|_, cells| part(cells)) }
     }
 
     #[inline(always)]

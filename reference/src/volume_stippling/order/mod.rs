@@ -21,10 +21,10 @@ mod visit;
 use super::slab::Slab;
 use class::{OF_RANKS, by_class, class_of, class_order};
 use drypoint_scene::glam::{DMat3, DVec3};
+use drypoint_scene::parallel;
 use groups::{GroupBounds, LANES, PointGroup};
 use neighbours::NeighbourLinks;
 use pool::{Class, Site, point_of, pool_size, rows_of_groups};
-use rayon::prelude::*;
 use visit::{TakenPoints, Visit, take};
 
 pub(super) use neighbours::MOST_VOXELS;
@@ -128,7 +128,7 @@ pub(super) fn points(sites: &Sites<'_>, each: usize, done: &(dyn Fn(usize) + Syn
     }
     // Back from the order of the classes to that of the voxels.
     let mut points = vec![[0f32; 3]; n * each];
-    points.par_chunks_mut(each.max(1)).enumerate().for_each(|(i, points)| {
+    parallel::chunks_mut(&mut points, each.max(1), &|i, points| {
         let id = ids[i] as usize;
         let slab = sites.slab_of(i);
         for (rank, point) in points.iter_mut().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::Sites;
 use drypoint_scene::glam::DVec3;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// Index of the neighbour in a direction: one voxel away, rounded.
 pub(super) fn towards(sites: &Sites<'_>, n: DVec3) -> usize {
@@ -50,20 +50,17 @@ impl NeighbourLinks {
             order[id as usize] = i;
         }
         let rows = RowIndex::new(cells);
-        let parts: Vec<(Vec<u32>, Vec<u32>)> = order
-            .par_chunks(4096)
-            .map(|part| {
-                let (mut links, mut counts) = (Vec::new(), Vec::new());
-                for &i in part {
-                    let before = links.len();
-                    if sites.neighbours {
-                        rows.around(cells, cells[i], 1, |j, k| links.push(ids[j] << 5 | k as u32));
-                    }
-                    counts.push((links.len() - before) as u32);
+        let parts = parallel::map_of(order.chunks(4096).collect(), &|_, part: &[usize]| {
+            let (mut links, mut counts) = (Vec::new(), Vec::new());
+            for &i in part {
+                let before = links.len();
+                if sites.neighbours {
+                    rows.around(cells, cells[i], 1, |j, k| links.push(ids[j] << 5 | k as u32));
                 }
-                (links, counts)
-            })
-            .collect();
+                counts.push((links.len() - before) as u32);
+            }
+            (links, counts)
+        });
         let (mut all, mut first) = (Vec::new(), vec![0]);
         for (links, counts) in parts {
             all.extend(links);

@@ -6,7 +6,7 @@ use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
 use crate::volume_stippling::slab::{Slab, TRIES};
 use drypoint_scene::glam::DVec3;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// Pool size of a voxel that draws `each` points.
 pub(super) fn pool_size(each: usize) -> usize {
@@ -73,19 +73,23 @@ impl Class {
         let group = PointGroup { at: [[0.0; LANES]; 3], far: [0.0; LANES], draws: [0; LANES] };
         let mut pools = vec![group; members.len() * size / LANES];
         let mut rows = vec![[[-1.0; LANES]; 6]; members.len() * rows_of_groups(size)];
-        let parts = pools.par_chunks_mut(size / LANES).zip(rows.par_chunks_mut(rows_of_groups(size)));
-        let sites = members
-            .par_iter()
-            .zip(parts)
-            .map_init(Vec::new, |scratch, (&i, (pool, rows))| {
+        let pools_of_run = pools.chunks_mut(parallel::RUN * size / LANES);
+        let runs =
+            pools_of_run.zip(rows.chunks_mut(parallel::RUN * rows_of_groups(size))).zip(members.chunks(parallel::RUN));
+        let made = parallel::map_of(runs.collect(), &|_, ((pools, rows), members)| {
+            let mut scratch = Vec::new();
+            let parts = pools.chunks_mut(size / LANES).zip(rows.chunks_mut(rows_of_groups(size)));
+            let sites = members.iter().zip(parts).map(|(&i, (pool, rows))| {
                 let site = widely(
                     #[inline(always)]
-                    || Site::new(sites, i, links.range(ids[i] as usize), links, size, scratch),
+                    || Site::new(sites, i, links.range(ids[i] as usize), links, size, &mut scratch),
                 );
-                site.fill(pool, rows, scratch);
+                site.fill(pool, rows, &mut scratch);
                 site
-            })
-            .collect();
+            });
+            sites.collect::<Vec<_>>()
+        });
+        let sites = made.into_iter().flatten().collect();
         Self { number: class, start, sites, pools, rows }
     }
 

@@ -6,7 +6,7 @@ use super::neighbours::{NeighbourLinks, id_of, offset_of};
 use super::pool::{Class, Site, point_of, rows_of_groups};
 use super::{Sites, flattened, scaled};
 use crate::number::lanes::widely;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 
 /// The parameters of a visit.
 pub(super) struct Visit<'a> {
@@ -43,15 +43,21 @@ pub(super) fn take(
     step: &Visit<'_>,
 ) {
     let (start, number) = (class.start, class.number);
-    let pools = class.pools.par_chunks_mut(size / LANES).zip(class.rows.par_chunks_mut(rows_of_groups(size)));
-    let voxels = class.sites.par_iter_mut().zip(pools).zip(own).zip(chosen);
-    voxels.enumerate().with_min_len(256).for_each(|(i, (((site, (pool, rows)), own), chosen))| {
-        widely(
-            #[inline(always)]
-            || site.slot = visit(site, pool, rows, [start + i, number], seen, step),
-        );
-        *chosen = pool[site.slot / LANES].draws[site.slot % LANES];
-        *own = scaled(sites, point_of(&site.slab, sites.seed, site.cell, *chosen));
+    let (pool, rows) = (size / LANES, rows_of_groups(size));
+    let of_pools = class.pools.chunks_mut(parallel::RUN * pool).zip(class.rows.chunks_mut(parallel::RUN * rows));
+    let of_sites =
+        class.sites.chunks_mut(parallel::RUN).zip(own.chunks_mut(parallel::RUN)).zip(chosen.chunks_mut(parallel::RUN));
+    parallel::each_of(of_pools.zip(of_sites).collect(), &|run, ((pools, all_rows), ((of_run, own), chosen))| {
+        let of_pools = pools.chunks_mut(pool).zip(all_rows.chunks_mut(rows));
+        let voxels = of_run.iter_mut().zip(of_pools).zip(own).zip(chosen);
+        for (i, (((site, (pool, rows)), own), chosen)) in (start + run * parallel::RUN..).zip(voxels) {
+            widely(
+                #[inline(always)]
+                || site.slot = visit(site, pool, rows, [i, number], seen, step),
+            );
+            *chosen = pool[site.slot / LANES].draws[site.slot % LANES];
+            *own = scaled(sites, point_of(&site.slab, sites.seed, site.cell, *chosen));
+        }
     });
 }
 

@@ -4,7 +4,6 @@ use super::brush::{composed, membership};
 use super::flood::{Marker, basins};
 use super::region::grown;
 use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
-use crate::with_sampler;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::memory::NoRoom;
 use drypoint_scene::tables::{Brush, Connectivity, PaintMode};
@@ -156,10 +155,10 @@ impl<'a> Painter<'a> {
         let field = Field::<f64>::new(self.volume, Reconstruction::default(), Rung::Gradient);
         let field = field.map_err(PaintError::Field)?;
         // Squares have the order of magnitudes.
-        with_sampler!(field, |sampler| self.watershed_over(selection, seeds, |voxel| {
-            let gradient = sampler.voxel_gradient(voxel);
+        self.watershed_over(selection, seeds, |voxel| {
+            let gradient = field.voxel_gradient(voxel);
             gradient.dot(gradient)
-        }))
+        })
     }
 
     /// Paints the basins of seeds over a relief. Hidden voxels are walls.

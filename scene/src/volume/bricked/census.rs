@@ -2,8 +2,8 @@
 
 use super::brick;
 use super::table::{bricks_along, bytes, extent, gathered};
+use crate::parallel;
 use crate::volume::{Access, Volume};
-use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::HashMap;
 
@@ -35,7 +35,7 @@ impl BrickCensus {
             brick::repeat_last(&mut voxels, extent);
             voxels
         };
-        let hashes: Vec<u64> = (0..count).into_par_iter().map(|i| brick::hash(&gather(i))).collect();
+        let hashes: Vec<u64> = parallel::map(count, &|i| brick::hash(&gather(i)));
         // The first brick of each content that has a hash.
         let mut firsts: HashMap<u64, Vec<usize>> = HashMap::new();
         for (i, hash) in hashes.into_iter().enumerate() {

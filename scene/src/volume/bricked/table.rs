@@ -3,8 +3,8 @@
 use super::brick::{self, Brick, SIDE, VOXELS};
 use super::pool::Pool;
 use crate::memory::{self, NoRoom};
+use crate::parallel;
 use crate::volume::Voxel;
-use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -53,12 +53,11 @@ impl<V: Voxel> BrickedVolume<V> {
         // A layer of bricks at a time, so that bricks which are equal never are in memory all at once.
         for z in 0..bricks[2] {
             memory::room_for(layer as u64, Self::BRICK_BYTES)?;
-            let made = (0..layer).into_par_iter().map(|i| {
+            let made = parallel::map(layer, &|i| {
                 let brick = [i % bricks[0], i / bricks[0], z];
                 let extent = volume.extent(brick);
                 Brick::new(gathered(brick, extent, &value), extent)
             });
-            let made: Vec<Brick<V>> = made.collect();
             volume.table.extend(made.into_iter().map(|brick| volume.pool.shared(brick)));
         }
         Ok(volume)

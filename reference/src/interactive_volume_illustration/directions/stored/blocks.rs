@@ -3,7 +3,7 @@
 use crate::field::curvature::Curvature;
 use crate::number::Vec3;
 use drypoint_scene::glam::DVec3;
-use rayon::prelude::*;
+use drypoint_scene::parallel;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -182,7 +182,7 @@ impl DirectionBlocks {
     /// voxels.
     pub(super) fn fill<M: FnMut([usize; 3]) -> Option<Curvature<f64>>>(&self, start: impl Fn(VoxelBox) -> M + Sync) {
         let groups = self.dims.map(|n| n.div_ceil(AT_ONCE));
-        (0..groups.iter().product::<usize>()).into_par_iter().for_each(|i| {
+        parallel::each(groups.iter().product(), &|i| {
             let group = [i % groups[0], i / groups[0] % groups[1], i / (groups[0] * groups[1])];
             let first = group.map(|g| g * AT_ONCE * SIDE);
             let end = [0, 1, 2].map(|a| (first[a] + AT_ONCE * SIDE).min(self.voxels[a]));

@@ -1,5 +1,5 @@
 use super::*;
-use crate::field::{Exact, Field, Reconstruction, Rung};
+use crate::field::{Field, Reconstruction, Rung};
 use drypoint_scene::glam::DMat3;
 use drypoint_scene::phantom::{Phantom, by_name};
 use drypoint_scene::philox::uniform;
@@ -29,7 +29,8 @@ fn exact(phantom: &dyn Phantom, grid: &Grid, iso: f64, view: &View) -> OutlineSt
         outside: Outside::Low,
         no_normal_below: 1e-9,
     };
-    search.outlines(&Exact::new(phantom, grid, 0), view, &bricks)
+    let field = Field::new(&volume, Reconstruction::default(), Rung::Value).unwrap().with_formula(phantom);
+    search.outlines(&field, view, &bricks)
 }
 
 /// Ends and middles of the pieces of strokes.
@@ -221,7 +222,7 @@ fn plateaus_and_stored_values() {
                     for stroke in found(&volume, iso, direction, projection).strokes {
                         for vertex in &stroke.vertices {
                             let at = Vec3::from_glam(volume.grid().to_index(vertex.world));
-                            let value: f64 = with_sampler!(field, |sampler| sampler.value(at));
+                            let value: f64 = field.value(at);
                             assert!(vertex.world.is_finite() && (vertex.normal.length() - 1.0).abs() < 1e-12);
                             // The place is within 1e-6 voxel of the surface, and values change by at most 255 a
                             // voxel.
