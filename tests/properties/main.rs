@@ -20,3 +20,4 @@ mod refinement;
 mod scenes;
 mod skipping;
 mod subset;
+mod weight;

@@ -28,7 +28,7 @@ impl<R: Real> Field<'_, R> {
         let side = BRICK + taps - 1;
         match &self.kernel {
             KernelData::Bspline(c) | KernelData::Bspline5(c) => c.around(first, side, |at, c| put(&mut numbers, at, c)),
-            _ => self.stencils.around::<R>(first, taps / 2 - 1, side, |at, c| put(&mut numbers, at, c)),
+            _ => self.stencils.around::<R>(first, taps / 2 - 1, side, &mut |at, c| put(&mut numbers, at, c)),
         }
         closed(&mut numbers, side, taps);
         let range = |i: usize| {

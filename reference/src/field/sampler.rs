@@ -166,13 +166,25 @@ impl<R: Real> Field<'_, R> {
         }
     }
 
-    /// The gradient of the numbers along the index axes. It is compiled once for each number type.
+    /// The number at a place, before slope and intercept. It is compiled once for each number type.
     #[inline(never)]
+    fn number(&self, at: Place<R>) -> R {
+        with_kernel!(self, |kernel| kernel.value(self, at))
+    }
+
+    /// The gradient of the numbers along the index axes.
+    #[inline(always)]
     pub(super) fn index_gradient(&self, at: Place<R>) -> Vec3<R> {
         match self.how.gradient {
-            GradientEstimator::Analytic => with_kernel!(self, |kernel| kernel.gradient(self, at)),
+            GradientEstimator::Analytic => self.analytic_gradient(at),
             _ => self.estimated_gradient(at),
         }
+    }
+
+    /// The kernel's own derivative. It is compiled once for each number type.
+    #[inline(never)]
+    fn analytic_gradient(&self, at: Place<R>) -> Vec3<R> {
+        with_kernel!(self, |kernel| kernel.gradient(self, at))
     }
 
     /// Gradient and Hessian of the numbers along the index axes. They are compiled once for each number type.
@@ -274,11 +286,11 @@ impl<R: Real> Sampler<R> for Field<'_, R> {
         self.cells.locate(p)
     }
 
-    #[inline(never)]
+    #[inline]
     fn value_at(&self, at: Place<R>) -> R {
         match &self.formula {
             Some(exact) => R::from_f64(exact.value_at(at.to_f64())),
-            None => self.to_value(with_kernel!(self, |kernel| kernel.value(self, at))),
+            None => self.to_value(self.number(at)),
         }
     }
 

@@ -277,7 +277,7 @@ impl<'a> Renderer<'a> {
                 let [from, to] = band.share;
                 let progress = |share: f64| progress(from + (to - from) * share);
                 let tiles = rays_of_tiles(prepared, self.tile, &band);
-                plane_order::cast_with_halos((prepared, halos), sampler, tiles, band.region, &progress)
+                plane_order::cast_with_halos((prepared, halos), tiles, band.region, &progress)
             }));
         }
         match (&self.ready, self.order) {
@@ -291,9 +291,7 @@ impl<'a> Renderer<'a> {
                 draw(Casting::ByTile(&|work: TileWork<'_>| merged::cast_apart(p, [&alone, &together], work)))
             }
             (_, Order::Lanes | Order::Rays) => draw(Casting::ByTile(&alone)),
-            (_, Order::Planes) => {
-                draw(Casting::ByTile(&|work: TileWork<'_>| plane_order::cast_all(prepared, sampler, work)))
-            }
+            (_, Order::Planes) => draw(Casting::ByTile(&|work: TileWork<'_>| plane_order::cast_all(prepared, work))),
         }
     }
 }

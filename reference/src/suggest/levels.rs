@@ -62,7 +62,7 @@ impl Levels {
             if outside == Outside::Low { u } else { 1.0 - u }
         };
         let dims = volume.dims();
-        let slices = with_access!(volume, |a| sums(dims, |z| SliceShares::new(a, z, share)));
+        let slices = with_access!(volume, |a| sums(dims, &|z| SliceShares::new(a, z, share)));
         Some(Self { lo, hi, outside, voxels: volume.grid().len() as f64, levels: levels(&slices) })
     }
 
@@ -148,10 +148,9 @@ impl SliceShares {
 const THICKNESS: usize = 8;
 
 /// The sums of each slice.
-fn sums([nx, ny, nz]: [usize; 3], slice: impl Fn(usize) -> SliceShares + Sync) -> Vec<BinSums> {
+fn sums([nx, ny, nz]: [usize; 3], slice: &(dyn Fn(usize) -> SliceShares + Sync)) -> Vec<BinSums> {
     // Four voxels in a row along an axis; the border's voxel replaces those outside.
     let around = |i: usize, n: usize| [i.saturating_sub(1), i, i + 1, i + 2].map(|i| i.min(n - 1));
-    let slice = &slice;
     // A thread walks through consecutive slices with a window of four, and adds each voxel and its three forward
     // pairs.
     let part = |part: usize| {

@@ -359,8 +359,9 @@ impl<V: Voxel> Access for Linear<'_, V> {
     #[inline(always)]
     fn row<const N: usize>(&self, x: usize, y: usize, z: usize) -> [V; N] {
         let start = self.offset(x, y, z);
-        let slice = &self.data[start..start + N];
-        std::array::from_fn(|i| slice[i])
+        let mut row = [self.data[start]; N];
+        row.copy_from_slice(&self.data[start..start + N]);
+        row
     }
 }
 

@@ -24,45 +24,21 @@ pub(crate) use crate::number::lanes::LANES;
 const TO_BITS: f64 = (1u64 << 52) as f64;
 const MANTISSA: u64 = (1 << 52) - 1;
 
-/// Stored numbers of which four fit into one word.
-pub(crate) trait Packed: Voxel {
+/// Stored numbers of which four fit into one word. Signed ones are read as unsigned, with their sign bit flipped.
+pub(crate) trait Packed: Voxel + Into<u64> {
     /// Bits of one.
-    const BITS: u32;
-    /// The sign bit; 0 for types without one. A number with this bit flipped is the unsigned number plus the value of
-    /// the bit.
-    const SIGN: u64;
-
-    /// The bits.
-    fn bits(self) -> u64;
+    const BITS: u32 = 8 * size_of::<Self>() as u32;
 }
 
-macro_rules! packed {
-    ($($voxel:ty as $unsigned:ty, $sign:expr;)*) => {
-        $(impl Packed for $voxel {
-            const BITS: u32 = <$voxel>::BITS;
-            const SIGN: u64 = $sign;
-
-            #[inline(always)]
-            fn bits(self) -> u64 {
-                u64::from(self as $unsigned)
-            }
-        })*
-    };
-}
-
-packed! {
-    u8 as u8, 0;
-    i8 as u8, 1 << 7;
-    u16 as u16, 0;
-    i16 as u16, 1 << 15;
-}
+impl Packed for u8 {}
+impl Packed for u16 {}
 
 /// Neighbours along x, the first in the lowest bits.
 #[inline(always)]
 fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
     let mut word = 0;
     for (i, voxel) in row.into_iter().enumerate() {
-        word |= voxel.bits() << (V::BITS * i as u32);
+        word |= voxel.into() << (V::BITS * i as u32);
     }
     word
 }
@@ -72,16 +48,6 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
 const ROOM: u32 = 40;
 /// Index of the byte that stays 0.
 const NOTHING: u64 = 5;
-
-/// The sign bits of `N` numbers in a word.
-const fn signs<V: Packed, const N: usize>() -> u64 {
-    let (mut signs, mut i) = (0, 0);
-    while i < N {
-        signs |= V::SIGN << (V::BITS as usize * i);
-        i += 1;
-    }
-    signs
-}
 
 /// Byte selectors, for every word of a vector: from two words that also hold the bits of 2⁵², they take number i of
 /// each, plus 2⁵².
@@ -251,6 +217,11 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     simd: S,
     field: &'f Field<'v, f64>,
     voxels: Linear<'f, V>,
+    /// The sign bit of a number; 0 where there is none. A number with this bit flipped is the unsigned number plus the value
+    /// of the bit.
+    sign: u64,
+    /// The sign bits of the numbers in the lower half of a word.
+    signs: u64,
     to_world: Mat3<f64x8<S>>,
 }
 
@@ -305,11 +276,13 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
 }
 
 impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
-    /// Reads a field that [`fits_lanes`](Field::fits_lanes), from its voxels.
+    /// Reads a field that [`fits_lanes`](Field::fits_lanes), from the bits of its voxels, and whether these have a sign.
     #[inline(always)]
-    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V]) -> Self {
+    pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V], is_signed: bool) -> Self {
         let to_world = splat(simd, &field.to_world);
-        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), to_world }
+        let sign = u64::from(is_signed) << (V::BITS - 1);
+        let signs = if V::BITS == 8 { sign * 0x0101_0101 } else { sign * 0x0001_0001 };
+        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), sign, signs, to_world }
     }
 
     /// The windows of side `N` that begin at some places in the order of voxels.
@@ -341,7 +314,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     #[inline(always)]
     fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
         // The formula of `lerp`: integers this small have exact differences.
-        (a - (TO_BITS + V::SIGN as f64)) + w * (b - a)
+        (a - (TO_BITS + self.sign as f64)) + w * (b - a)
     }
 
     /// The first `N` numbers in each word, all raised by the same integer: their differences are those of the numbers.
@@ -358,7 +331,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
             return raised;
         }
         let words: u64x8<S> = words.simd_into(self.simd);
-        let words = words ^ (signs::<V, N>() | TO_BITS.to_bits());
+        let words = words ^ (self.signs | TO_BITS.to_bits());
         for (i, number) in raised.iter_mut().enumerate() {
             let picked: u64x8<S> = picks::<V>(i).simd_into(self.simd);
             *number = f64x8::from_bits(words.swizzle_dyn_within_blocks(Bytes::to_bytes(picked)));
@@ -371,7 +344,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     fn raised_at(&self, words: [u64; LANES], i: usize) -> f64x8<S> {
         let words: u64x8<S> = words.simd_into(self.simd);
         let bits = (words >> (V::BITS * i as u32)) & ((1u64 << V::BITS) - 1);
-        f64x8::from_bits((bits ^ V::SIGN) | TO_BITS.to_bits())
+        f64x8::from_bits((bits ^ self.sign) | TO_BITS.to_bits())
     }
 
     /// The four numbers in one word, raised.
@@ -380,6 +353,6 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         let bits = u64::from(V::BITS);
         let places: u64x4<S> = [0, bits, 2 * bits, 3 * bits].simd_into(self.simd);
         let bits = self.simd.shrv_u64x4(u64x4::splat(self.simd, word), places) & ((1u64 << V::BITS) - 1);
-        f64x4::from_bits((bits ^ V::SIGN) | TO_BITS.to_bits())
+        f64x4::from_bits((bits ^ self.sign) | TO_BITS.to_bits())
     }
 }

@@ -258,12 +258,17 @@ impl<'v> Stencils<'v> {
         let dims = self.dims();
         let index = |axis: usize, i: usize| (start[axis] + i as isize).clamp(0, dims[axis] as isize - 1) as usize;
         let scale = self.scale;
+        let mut block = [[[R::ZERO; N]; N]; N];
         with_access!(self.volume, |a| {
-            let read = |x, y, z| number(a.at(x, y, z), scale);
-            std::array::from_fn(|k| {
-                std::array::from_fn(|j| std::array::from_fn(|i| read(index(0, i), index(1, j), index(2, k))))
-            })
-        })
+            for (k, plane) in block.iter_mut().enumerate() {
+                for (j, line) in plane.iter_mut().enumerate() {
+                    for (i, number_at) in line.iter_mut().enumerate() {
+                        *number_at = number(a.at(index(0, i), index(1, j), index(2, k)), scale);
+                    }
+                }
+            }
+        });
+        block
     }
 
     /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their index
@@ -274,7 +279,7 @@ impl<'v> Stencils<'v> {
         first: [usize; 3],
         before: usize,
         side: usize,
-        mut take: impl FnMut([usize; 3], f64),
+        take: &mut dyn FnMut([usize; 3], f64),
     ) {
         let dims = self.dims();
         let start = first.map(|i| i as isize - before as isize);
@@ -283,20 +288,17 @@ impl<'v> Stencils<'v> {
         let beyond = |a: usize, i: isize| i < 0 || i >= dims[a] as isize;
         let scale = self.scale;
         with_access!(self.volume, |voxels| {
-            for [z, y, x] in (0..side * side * side).map(|i| [i / side / side, i / side % side, i % side]) {
-                let at = [x, y, z];
-                let place = [0, 1, 2].map(|a| start[a] + at[a] as isize);
-                take(
-                    at,
-                    if (0..3).any(|a| beyond(a, place[a])) {
-                        let cell = [0, 1, 2].map(|a| cell(a, place[a]));
-                        let tap = |a: usize| (place[a] - cell[a] as isize + 1).clamp(0, 3) as usize;
-                        self.block::<R>(cell)[tap(2)][tap(1)][tap(0)].to_f64()
-                    } else {
-                        let [x, y, z] = place.map(|i| i as usize);
-                        number::<R, _>(voxels.at(x, y, z), scale).to_f64()
-                    },
-                );
+            for i in 0..side * side * side {
+                let at @ [x, y, z] = [i % side, i / side % side, i / side / side];
+                let place = [start[0] + x as isize, start[1] + y as isize, start[2] + z as isize];
+                let taken = if beyond(0, place[0]) || beyond(1, place[1]) || beyond(2, place[2]) {
+                    let cell = [cell(0, place[0]), cell(1, place[1]), cell(2, place[2])];
+                    let tap = |a: usize| (place[a] - cell[a] as isize + 1).clamp(0, 3) as usize;
+                    self.block::<R>(cell)[tap(2)][tap(1)][tap(0)]
+                } else {
+                    number::<R, _>(voxels.at(place[0] as usize, place[1] as usize, place[2] as usize), scale)
+                };
+                take(at, taken.to_f64());
             }
         });
     }

@@ -5,7 +5,6 @@ use super::cast::Cast;
 use super::object_ray::ObjectRay;
 use super::seed_rays::SeedRays;
 use super::waiting_tile::{ENDED, WaitingTile};
-use crate::field::{Field, Sampler};
 use crate::number::Real;
 use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
@@ -30,19 +29,19 @@ pub(crate) fn bytes_with_halos<R: Real>(
     let images = HaloPlanes::BYTES_OF_PIXEL * halos.list.len() as u64;
     let of_band = with_guard(width).saturating_mul(with_guard(height));
     let objects = prepared.combination.as_ref().map_or(0, |objects| ObjectRay::most_bytes(objects) + SLOT);
-    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R, Field<'_, R>>::BYTES_OF_RAY + objects);
-    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R, Field<'_, R>>::BYTES_OF_RAY + objects + images))
+    let rays = inside.saturating_mul(WaitingTile::<'_, '_, R>::BYTES_OF_RAY + objects);
+    rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R>::BYTES_OF_RAY + objects + images))
 }
 
 /// Bytes of the place of the objects of a ray, and of two more ranges of samples.
 const SLOT: u64 = 40;
 
 /// Casts rays of a tile plane by plane, without halos.
-pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampler: &S, work: TileWork<'_>) {
+pub(crate) fn cast_all<R: Real>(prepared: &Prepared<'_, R>, work: TileWork<'_>) {
     let TileWork { points, boxes, counts, casts } = work;
     // Only halos ask for the rays' places.
     let rays = TileRays { points: points.to_vec(), places: vec![[0; 2]; points.len()], boxes: boxes.cloned() };
-    let mut tile = WaitingTile::new(prepared, sampler, rays, 0);
+    let mut tile = WaitingTile::new(prepared, rays, 0);
     while tile.next != ENDED {
         tile.visit(tile.next);
     }
@@ -56,19 +55,18 @@ pub(crate) fn cast_all<R: Real, S: Sampler<R>>(prepared: &Prepared<'_, R>, sampl
 /// In each chunk rays first composite their samples and the glow behind each plane, with what the halos had at its
 /// beginning. Then samples are asked for their seeds, also invisible ones, those of rays that have ended and those in a guard
 /// band about the region. At its end seeds become intensities. So rays of one chunk go on independently, on any thread.
-pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
+pub(crate) fn cast_with_halos<R: Real>(
     (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
-    sampler: &S,
     tiles: Vec<TileRays>,
     region: Region,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Casts {
     let mut planes = HaloPlanes::new(&halos.list, region.size);
     let watched = halos.watched();
-    let mut tiles: Vec<WaitingTile<'_, '_, R, S>> =
-        parallel::map_of(tiles, &|_, tile| WaitingTile::new(prepared, sampler, tile, watched));
+    let mut tiles: Vec<WaitingTile<'_, '_, R>> =
+        parallel::map_of(tiles, &|_, tile| WaitingTile::new(prepared, tile, watched));
     let mut counts = Counts::default();
-    let mut seeds = SeedRays::new(prepared, halos, sampler, region, planes.size(), &mut counts);
+    let mut seeds = SeedRays::new(prepared, halos, region, planes.size(), &mut counts);
     counts.bytes.insert("rays".into(), tiles.iter().map(WaitingTile::bytes).sum());
     counts.bytes.insert("seed_rays".into(), seeds.bytes());
     counts.bytes.insert("halos".into(), planes.bytes());
@@ -93,12 +91,12 @@ pub(crate) fn cast_with_halos<R: Real, S: Sampler<R>>(
         };
         // Compositing.
         if planes.reach_all_rays() {
-            parallel::each_of(tiles.iter_mut().collect(), &|_, tile: &mut WaitingTile<'_, '_, R, S>| {
+            parallel::each_of(tiles.iter_mut().collect(), &|_, tile: &mut WaitingTile<'_, '_, R>| {
                 tile.visit_glowing([begin, end], &planes);
             });
         } else {
             let waiting = tiles.iter_mut().filter(|tile| tile.next <= end).collect();
-            parallel::each_of(waiting, &|_, tile: &mut WaitingTile<'_, '_, R, S>| tile.visit_tinted(end, &planes));
+            parallel::each_of(waiting, &|_, tile: &mut WaitingTile<'_, '_, R>| tile.visit_tinted(end, &planes));
         }
         // Seeds count as long as a pixel in their reach is open.
         let open: Vec<bool> = tiles.iter().map(|tile| tile.is_open).collect();

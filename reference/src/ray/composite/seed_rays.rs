@@ -6,7 +6,7 @@
 use super::object_ray::ObjectRay;
 use super::object_seeds::SeedScratch;
 use super::waiting_tile::ENDED;
-use crate::field::Sampler;
+use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
 use crate::ray::brick_occupancy::Beam;
 use crate::ray::draw::{Region, ray_point};
@@ -24,10 +24,10 @@ use std::ops::Range;
 const SIDE: usize = 8;
 
 /// The seed rays of a region and its guard band, in strips of tiles.
-pub(super) struct SeedRays<'p, 'v, R: Real, S> {
+pub(super) struct SeedRays<'p, 'v, R: Real> {
     prepared: &'p Prepared<'v, R>,
     halos: &'p PreparedHalos<'v>,
-    strips: Vec<Vec<SeedTile<'p, 'v, R, S>>>,
+    strips: Vec<Vec<SeedTile<'p, 'v, R>>>,
     region: Region,
     /// Rays across and down, with the guard band.
     size: [usize; 2],
@@ -36,8 +36,8 @@ pub(super) struct SeedRays<'p, 'v, R: Real, S> {
 }
 
 /// Seed rays of one tile.
-struct SeedTile<'p, 'v, R: Real, S> {
-    rays: Vec<SeedRay<'p, 'v, R, S>>,
+struct SeedTile<'p, 'v, R: Real> {
+    rays: Vec<SeedRay<'p, 'v, R>>,
     /// The next plane of each ray and the last one of the range that it is in: apart from the rays, which most chunks then
     /// need not touch.
     planes: Vec<[i64; 2]>,
@@ -50,32 +50,30 @@ struct SeedTile<'p, 'v, R: Real, S> {
 }
 
 /// A ray on which samples are asked for seeds.
-struct SeedRay<'p, 'v, R: Real, S> {
-    evaluator: Evaluator<'p, 'v, R, S>,
+struct SeedRay<'p, 'v, R: Real> {
+    evaluator: Evaluator<'p, 'v, R, Field<'v, R>>,
     /// Its place in the strip.
     place: usize,
     /// The ranges of the tile that come after the one it is in.
     ranges: Range<usize>,
 }
 
-impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
+impl<'p, 'v, R: Real> SeedRays<'p, 'v, R> {
     /// Bytes of a ray with two ranges of samples.
-    pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R, S>>() + 3 * size_of::<[i64; 2]>()) as u64;
+    pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R>>() + 3 * size_of::<[i64; 2]>()) as u64;
 
     /// Aims the rays of a region; `size` is that of the images, with the guard band. Adds to the counts what it takes to find
     /// cutaways on them.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         halos: &'p PreparedHalos<'v>,
-        sampler: &'p S,
         region: Region,
         size: [usize; 2],
         counts: &mut Counts,
     ) -> Self {
         let aim = |strip: usize| {
             let mut counts = Counts::default();
-            let tile =
-                |column: usize| SeedTile::new((prepared, halos), sampler, region, size, [column, strip], &mut counts);
+            let tile = |column: usize| SeedTile::new((prepared, halos), region, size, [column, strip], &mut counts);
             let tiles: Vec<_> = (0..size[0].div_ceil(SIDE)).map(tile).collect();
             (tiles, counts)
         };
@@ -121,7 +119,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     pub(super) fn visit(&mut self, last: i64, planes: &mut HaloPlanes<'_>, counts: &mut Counts) {
         let (prepared, halos) = (self.prepared, self.halos);
         let strips = planes.seed_strips(SIDE);
-        let visit = |_, (tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R, S>>, SeedStrip<'_>)| {
+        let visit = |_, (tiles, mut strip): (&mut Vec<SeedTile<'_, '_, R>>, SeedStrip<'_>)| {
             let (mut counts, mut scratch) = (Counts::default(), SeedScratch::new(halos.list.len()));
             for tile in tiles.iter_mut().filter(|tile| tile.next <= last) {
                 let rays = tile.planes.iter_mut().zip(&mut tile.rays).enumerate();
@@ -151,7 +149,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
 
     /// Bytes of the states of all rays.
     pub(super) fn bytes(&self) -> u64 {
-        let of = |tile: &SeedTile<'_, '_, R, S>| {
+        let of = |tile: &SeedTile<'_, '_, R>| {
             let planes = size_of_val(tile.planes.as_slice()) + size_of_val(tile.ranges.as_slice());
             let objects: u64 = tile.objects.iter().flatten().map(|objects| objects.bytes()).sum();
             (size_of_val(tile.rays.as_slice()) + size_of_val(tile.objects.as_slice()) + planes) as u64 + objects
@@ -160,11 +158,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedRays<'p, 'v, R, S> {
     }
 }
 
-impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
+impl<'p, 'v, R: Real> SeedTile<'p, 'v, R> {
     /// Aims the rays of a tile of the images that can meet a brick with seeds, or a part that seeds.
     fn new(
         (prepared, halos): (&'p Prepared<'v, R>, &'p PreparedHalos<'v>),
-        sampler: &'p S,
         region: Region,
         size: [usize; 2],
         [column, strip]: [usize; 2],
@@ -216,7 +213,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
             tile.planes.push(tile.ranges[first_range]);
             let (v, v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
             let dirs = object.shader.view_dirs(v, v_eye);
-            let evaluator = Evaluator::new(object, sampler, ray, dirs, &prepared.eye_axes);
+            let evaluator = Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes);
             tile.rays.push(SeedRay { evaluator, place: y * size[0] + first[0] + x, ranges });
         }
         tile.next = nearest(&tile.planes);
@@ -229,7 +226,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> SeedTile<'p, 'v, R, S> {
     }
 }
 
-impl<R: Real, S: Sampler<R>> SeedRay<'_, '_, R, S> {
+impl<R: Real> SeedRay<'_, '_, R> {
     /// Adds the seeds of the samples first..=last: runs of the volume alone as if there were no objects, the others together.
     #[inline]
     fn seed_run(

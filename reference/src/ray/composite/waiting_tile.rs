@@ -3,7 +3,7 @@
 use super::cast::Cast;
 use super::path::Step;
 use super::ray_state::RayState;
-use crate::field::Sampler;
+use crate::field::Field;
 use crate::number::Real;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::need::Anything;
@@ -15,8 +15,8 @@ use drypoint_scene::counts::Counts;
 pub(super) const ENDED: i64 = i64::MAX;
 
 /// Rays of one tile.
-pub(super) struct WaitingTile<'p, 'v, R: Real, S> {
-    rays: Vec<WaitingRay<'p, 'v, R, S>>,
+pub(super) struct WaitingTile<'p, 'v, R: Real> {
+    rays: Vec<WaitingRay<'p, 'v, R>>,
     /// Rays that have steps left: the plane of the next one, and the ray. It stands apart from the rays, which most chunks then
     /// need not touch.
     open: Vec<(i64, usize)>,
@@ -28,8 +28,8 @@ pub(super) struct WaitingTile<'p, 'v, R: Real, S> {
 }
 
 /// A ray that waits for its next plane.
-struct WaitingRay<'p, 'v, R: Real, S> {
-    state: RayState<'p, 'v, R, S>,
+struct WaitingRay<'p, 'v, R: Real> {
+    state: RayState<'p, 'v, R, Field<'v, R>>,
     /// Column and row among the rays of the region.
     place: [usize; 2],
     path: Vec<Step<'p>>,
@@ -39,16 +39,15 @@ struct WaitingRay<'p, 'v, R: Real, S> {
     intensities: Box<[f64]>,
 }
 
-impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
+impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
     /// Bytes of a ray with a path of two steps.
-    pub(super) const BYTES_OF_RAY: u64 =
-        (size_of::<WaitingRay<'_, '_, R, S>>() + 2 * size_of::<Step<'_>>() + 32) as u64;
+    pub(super) const BYTES_OF_RAY: u64 = (size_of::<WaitingRay<'_, '_, R>>() + 2 * size_of::<Step<'_>>() + 32) as u64;
 
     /// Aims the rays of a tile, with so many halos that layers show.
-    pub(super) fn new(prepared: &'p Prepared<'v, R>, sampler: &'p S, mut tile: TileRays, watched: usize) -> Self {
+    pub(super) fn new(prepared: &'p Prepared<'v, R>, mut tile: TileRays, watched: usize) -> Self {
         let mut counts = Counts::default();
         let rays = tile.points.iter().zip(&tile.places).map(|(&point, &place)| {
-            let mut state = RayState::new(prepared, sampler, point);
+            let mut state = RayState::new(prepared, &prepared.object.field, point);
             let mut path = Vec::new();
             state.path(point, tile.boxes.as_mut(), &mut path, &mut counts);
             path.shrink_to_fit();
@@ -123,7 +122,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
     /// The last plane of any of its paths.
     pub(super) fn last(&self) -> Option<i64> {
-        let last = |ray: &WaitingRay<'_, '_, R, S>| match *ray.path.last()? {
+        let last = |ray: &WaitingRay<'_, '_, R>| match *ray.path.last()? {
             Step::Samples([_, last]) => Some(last),
             step => Some(step.plane()),
         };
@@ -132,7 +131,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
     /// Bytes of the states of its rays.
     pub(super) fn bytes(&self) -> u64 {
-        let own = |ray: &WaitingRay<'_, '_, R, S>| {
+        let own = |ray: &WaitingRay<'_, '_, R>| {
             let objects = ray.state.objects.as_ref().map_or(0, |objects| objects.bytes());
             (size_of_val(ray.path.as_slice()) + size_of_val(&*ray.intensities)) as u64 + objects
         };
@@ -141,7 +140,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
 
     /// Ends the rays and returns their results.
     pub(super) fn finish(mut self) -> (Vec<Cast>, Counts) {
-        let finish = |ray: WaitingRay<'_, '_, R, S>| {
+        let finish = |ray: WaitingRay<'_, '_, R>| {
             let cast = ray.state.finish(&mut self.counts);
             Cast { intensities: ray.intensities, ..cast }
         };
@@ -150,7 +149,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> WaitingTile<'p, 'v, R, S> {
     }
 }
 
-impl<R: Real, S: Sampler<R>> WaitingRay<'_, '_, R, S> {
+impl<R: Real> WaitingRay<'_, '_, R> {
     /// Takes all its steps on the planes up to `last`, of which the next is given. Returns the plane that comes then.
     fn visit(&mut self, [mut next, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> i64 {
         while next <= last {

@@ -36,6 +36,7 @@ use crate::field::AnySampler;
 use crate::field::lanes::{EachReader, LANES, LaneReader, Packed, Reader};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, wide};
+use bytemuck::cast_slice;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{KappaSource, SampleQuery};
@@ -102,10 +103,10 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
         }
         match &sampler {
             AnySampler::Trilinear(_) => match prepared.object.volume.voxels() {
-                Voxels::U8(data) => run(prepared, packets, data, counts),
-                Voxels::I8(data) => run(prepared, packets, data, counts),
-                Voxels::U16(data) => run(prepared, packets, data, counts),
-                Voxels::I16(data) => run(prepared, packets, data, counts),
+                Voxels::U8(data) => run(prepared, packets, (data, false), counts),
+                Voxels::I8(data) => run::<u8>(prepared, packets, (cast_slice(data), true), counts),
+                Voxels::U16(data) => run(prepared, packets, (data, false), counts),
+                Voxels::I16(data) => run::<u16>(prepared, packets, (cast_slice(data), true), counts),
                 _ => unreachable!("lanes serve trilinear numbers of 8 and 16 bits alone"),
             },
             AnySampler::Any(_) => run_each(prepared, packets, counts),
@@ -122,12 +123,17 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     }
 }
 
-/// Casts the rays of packets through small whole numbers.
-fn run<V: Packed>(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], data: &[V], counts: &mut Counts) {
+/// Casts the rays of packets through small whole numbers, of which the flag says whether they have a sign.
+fn run<V: Packed>(
+    prepared: &Prepared<'_, f64>,
+    packets: &mut [Packet<'_, '_>],
+    (data, is_signed): (&[V], bool),
+    counts: &mut Counts,
+) {
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
         simd.vectorize(
             #[inline(always)]
-            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.object.field, data), counts),
+            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.object.field, data, is_signed), counts),
         );
     }
 }
