@@ -274,8 +274,8 @@ fn suggested(
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
     let preset = parse(NOTHING, "", &over.preset).ok();
     let suggested = match &preset {
-        Some(preset) => bare_for(preset, path.to_path_buf(), volume, size, counts),
-        None => bare(path.to_path_buf(), volume, size, counts),
+        Some(preset) => bare_for(preset, path.to_path_buf(), volume, size, counts)?,
+        None => bare(path.to_path_buf(), volume, size, counts)?,
     };
     let mut text = file::write_full(&suggested);
     if over.sets_kind {
