@@ -33,7 +33,7 @@ pub(crate) fn run(file: &Path) -> Result<[f64; 2], Box<dyn Error>> {
     let volume = tanglecube()?;
     let range = volume.range();
     // A transfer function, a camera and a style are found in the data. The name stands in errors alone.
-    let scene = bare("tanglecube".into(), &volume, [240, 240], &mut Counts::default());
+    let scene = bare("tanglecube".into(), &volume, [240, 240], &mut Counts::default())?;
     let job = Job::with_volume(scene, volume)?;
     let (picture, _) = job.renderer()?.frame(&|_share| ());
     job.write(&picture, file)?;

@@ -32,6 +32,7 @@ impl Failure {
             | OutputError::UnknownFormat { path, .. }
             | OutputError::Malformed { path, .. }
             | OutputError::TooLarge { path, .. }
+            | OutputError::Side { path, .. }
             | OutputError::NoRoom { path: Some(path), .. } => path.display().to_string(),
             OutputError::List { path, line, column, fault } => {
                 return Self::new(fault, format!("{}, line {line}, column {column}", path.display()), error.help());

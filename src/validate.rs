@@ -86,16 +86,49 @@ pub struct Bounded {
     pub measured_at_decisions: f64,
 }
 
+/// The verdict of a comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Verdict {
+    /// Colours in f32 keep their bounds, or every stage in f64 is the reference's.
+    Kept,
+    /// A bound is exceeded, a stage parts in f64, or too few pixels have a bound that says something.
+    Failed,
+    /// Nothing could have failed: no bound is known for the scene, and the adapter has no f64.
+    NotProven,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Kept => "kept",
+            Self::Failed => "failed",
+            Self::NotProven => "not proven: no bound is known for this scene, and the adapter has no f64",
+        })
+    }
+}
+
 impl Validation {
     /// Whether a bound is exceeded, or the algorithms part.
     pub fn is_wrong(&self) -> bool {
         self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
     }
 
-    /// Whether it is wrong, or too few pixels have a bound that says something.
-    pub fn fails(&self) -> bool {
+    /// Returns the verdict.
+    pub fn verdict(&self) -> Verdict {
         let is_open = |bounded: &Bounded| bounded.undecided + bounded.endless > MOST_OPEN;
-        self.is_wrong() || self.bounded.as_ref().is_some_and(is_open)
+        if self.is_wrong() || self.bounded.as_ref().is_some_and(is_open) {
+            Verdict::Failed
+        } else if self.bounded.is_some() || self.has_double() {
+            Verdict::Kept
+        } else {
+            Verdict::NotProven
+        }
+    }
+
+    /// Whether all stages were compared in f64.
+    fn has_double(&self) -> bool {
+        self.stages.iter().all(|stage| stage.double.is_some())
     }
 }
 
@@ -110,15 +143,23 @@ impl fmt::Display for Validation {
         }
         match self.parts_at {
             Some(stage) => writeln!(f, "the {stage} is the first stage that parts in f64")?,
-            None if self.stages.iter().all(|stage| stage.double.is_some()) => writeln!(f, "no stage parts in f64")?,
+            None if self.has_double() => writeln!(f, "no stage parts in f64")?,
             None => {}
         }
         writeln!(f, "colours in f32: RMS {:.1e}, mean of FLIP {:.1e}", self.rms, self.flip)?;
         if let Some(why) = &self.unbounded {
-            return write!(f, "{why}");
+            writeln!(f, "{why}")?;
         }
-        let Some(bounded) = &self.bounded else { return Ok(()) };
-        let Bounded { bound, measured, share, exceeded, endless, undecided, measured_at_decisions, .. } = bounded;
+        if let Some(bounded) = &self.bounded {
+            write!(f, "{bounded}")?;
+        }
+        write!(f, "verdict: {}", self.verdict())
+    }
+}
+
+impl fmt::Display for Bounded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { bound, measured, share, exceeded, endless, undecided, measured_at_decisions, .. } = self;
         writeln!(
             f,
             "of pixels with a bound: bound {bound:.1e}, measured {measured:.1e}, at most {share:.3} of a pixel's own bound"
@@ -127,8 +168,12 @@ impl fmt::Display for Validation {
         if *endless > 0.0 {
             writeln!(f, "pixels whose bound says nothing: {:.3} %", endless * 100.0)?;
         }
-        write!(f, "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}", undecided * 100.0)?;
-        bounded.decisions.iter().try_for_each(|(what, pixels)| write!(f, "\n  {pixels} at {what}"))
+        writeln!(
+            f,
+            "pixels at a decision: {:.3} %, differing by up to {measured_at_decisions:.1e}",
+            undecided * 100.0
+        )?;
+        self.decisions.iter().try_for_each(|(what, pixels)| writeln!(f, "  {pixels} at {what}"))
     }
 }
 
@@ -317,4 +362,60 @@ fn against(bounds: &Bounds, single: &Picture) -> Bounded {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn validation(double: Option<f64>, bounded: Option<Bounded>) -> Validation {
+        let stage = Stage { name: "colour", layer: "beauty".into(), largest: 1.0, double, single: 1e-6 };
+        let picture = || Picture { width: 0, height: 0, layers: Vec::new() };
+        Validation {
+            adapter: "a card".into(),
+            stages: vec![stage],
+            parts_at: double.filter(|&double| double > SAME).map(|_| "colour"),
+            rms: 0.0,
+            flip: 0.0,
+            unbounded: bounded.is_none().then(|| "halos have no bounds".into()),
+            bounded,
+            pictures: [picture(), picture()],
+        }
+    }
+
+    fn bounded(exceeded: usize, undecided: f64) -> Bounded {
+        Bounded {
+            bound: 1e-3,
+            measured: 1e-4,
+            share: 0.1,
+            exceeded,
+            endless: 0.0,
+            undecided,
+            decisions: vec![("a tone", 3)],
+            measured_at_decisions: 0.0,
+        }
+    }
+
+    /// Without bounds and without f64 nothing can fail, so nothing is kept.
+    #[test]
+    fn verdicts() {
+        for (double, bounds, verdict) in [
+            (Some(0.0), None, Verdict::Kept),
+            (Some(1.0), None, Verdict::Failed),
+            (None, None, Verdict::NotProven),
+            (None, Some(bounded(0, 0.05)), Verdict::Kept),
+            (None, Some(bounded(1, 0.05)), Verdict::Failed),
+            (Some(0.0), Some(bounded(0, 0.2)), Verdict::Failed),
+            (Some(1.0), Some(bounded(0, 0.0)), Verdict::Failed),
+        ] {
+            let found = validation(double, bounds);
+            assert_eq!(found.verdict(), verdict, "{found}");
+            assert!(found.to_string().ends_with(&format!("\nverdict: {verdict}")), "{found}");
+        }
+        let said = validation(None, None).to_string();
+        assert!(said.ends_with(
+            "\nhalos have no bounds\nverdict: not proven: no bound is known for this scene, and the adapter has no f64"
+        ));
+        assert!(validation(None, Some(bounded(0, 0.0))).to_string().contains("\n  3 at a tone\nverdict: kept"));
+    }
 }

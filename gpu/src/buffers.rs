@@ -52,6 +52,14 @@ pub(crate) fn read(gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u
 /// Bytes of the longest entry of a list, rounded up.
 const LONGEST_ENTRY: u64 = 256;
 
+/// Checks that a shader can read so many bytes. A list that may be large asks before it is made.
+pub(crate) fn check_bytes(gpu: &Gpu, what: &'static str, bytes: u64) -> Result<(), GpuError> {
+    let limits = gpu.device.limits();
+    let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    let refused = || GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() };
+    if bytes > most { Err(refused()) } else { Ok(()) }
+}
+
 /// A buffer with contents.
 pub(crate) fn buffer(
     gpu: &Gpu,
@@ -59,12 +67,9 @@ pub(crate) fn buffer(
     contents: &[u8],
     usage: wgpu::BufferUsages,
 ) -> Result<wgpu::Buffer, GpuError> {
-    let most = gpu.device.limits().max_storage_buffer_binding_size;
     // A list without entries is as long as the longest entry: what is bound holds one.
     let bytes = (contents.len() as u64).max(LONGEST_ENTRY);
-    if bytes > most {
-        return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
-    }
+    check_bytes(gpu, what, bytes)?;
     gpu.attempt(what, || {
         let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(what),

@@ -45,6 +45,16 @@ pub enum OutputError {
         /// Length of the file in bytes.
         length: u64,
     },
+    /// A picture with a longer side than its use allows. Nothing was allocated.
+    #[error("{}: a picture of {} × {} pixels, and at most {most} along a side are read here", path.display(), size[0], size[1])]
+    Side {
+        /// The file.
+        path: PathBuf,
+        /// Width and height in pixels.
+        size: [usize; 2],
+        /// Most pixels along a side.
+        most: usize,
+    },
     /// The memory budget does not allow the pixels. Nothing was allocated.
     #[error(
         "{}a picture of {} × {} pixels needs {no_room}; {} × {} pixels would fit",
@@ -74,6 +84,12 @@ pub enum OutputError {
         layer: String,
         /// The mismatch.
         fault: String,
+    },
+    /// A page or a mark with a number that is infinite or NaN. Nothing was written.
+    #[error("{what} has a number that is infinite or NaN")]
+    NotFinite {
+        /// The page, the pen or the mark, as a noun phrase.
+        what: String,
     },
     /// A bit depth that PNG does not have for colour pictures.
     #[error("picture.bits: {bits} bits per channel")]
@@ -135,9 +151,11 @@ impl OutputError {
             Self::UnknownFormat { .. } => "convert the picture to PNG or EXR",
             Self::Malformed { .. } => "write the picture again, as a plain PNG or a flat scan-line EXR",
             Self::TooLarge { .. } => "the file is damaged or cut off: write or fetch it again",
+            Self::Side { .. } => "make the picture smaller",
             Self::NoRoom { .. } => "make the picture smaller, or allow more with --memory",
             Self::NoColor { .. } => "give a picture with colour channels named R, G and B",
             Self::Layer { .. } => "ask for the layer with --layers and a picture of at least one pixel",
+            Self::NotFinite { .. } => "make the lengths of the scene smaller, or leave the mark out",
             Self::Bits { .. } => "use 8 or 16",
             Self::Sizes { .. } => "render both with the same --size",
             Self::Viewing { .. } => "use 1 to 1000 pixels per degree; a desk screen has about 67",

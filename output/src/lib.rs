@@ -11,6 +11,7 @@ mod disc;
 pub mod encode;
 pub mod error;
 pub mod exr;
+mod finite;
 mod grid;
 mod layers;
 pub mod list;

@@ -61,6 +61,7 @@ pub fn remedy(error: &io::Error) -> &'static str {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "give a path in a folder that you may write to: a file is written beside its place, then renamed"
         }
+        io::ErrorKind::FileTooLarge => "raise the limit of file sizes (ulimit -f), or write a smaller file",
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or give a path elsewhere",
         _ => "check that the folder exists, may be written to and has room",
     }

@@ -1,5 +1,8 @@
 //! The picture of an intersection transfer function ([VS-4]): colours over two values.
 
+/// The most pixels along a side, far more than values that a picture can tell apart.
+pub const MOST_SIDE: usize = 4096;
+
 /// A picture over the value at p, by columns from the left, and the value at T p, by rows from the bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntersectionPicture {

@@ -247,7 +247,10 @@ pub(super) fn no_input(path: &Path) -> Failure {
     let suffixes = read::EXTENSIONS.map(|suffix| format!(".{suffix}")).join(", ");
     let check = format!("check the path; scenes end in .toml, volumes in {suffixes}");
     match std::fs::metadata(path) {
-        Ok(found) if found.is_dir() => Failure::new("a folder is neither a scene nor a volume", path.display(), check),
+        Ok(found) if found.is_dir() => {
+            let remedy = format!("give a file that is in it: scenes end in .toml, volumes in {suffixes}");
+            Failure::new("a folder is neither a scene nor a volume", path.display(), remedy)
+        }
         Ok(_) => {
             let what = "the suffix is neither that of a scene nor of a volume";
             let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -271,8 +274,8 @@ fn suggested(
     let size = parse(NOTHING, "", &over.picture).map_or([512, 512], |scene| scene.picture.size);
     let preset = parse(NOTHING, "", &over.preset).ok();
     let suggested = match &preset {
-        Some(preset) => bare_for(preset, path.to_path_buf(), volume, size, counts),
-        None => bare(path.to_path_buf(), volume, size, counts),
+        Some(preset) => bare_for(preset, path.to_path_buf(), volume, size, counts)?,
+        None => bare(path.to_path_buf(), volume, size, counts)?,
     };
     let mut text = file::write_full(&suggested);
     if over.sets_kind {

@@ -42,7 +42,8 @@ use std::process::ExitCode;
 /// and hatching.
 ///
 /// The default verb is render: `drypoint head.nii.gz` does the same as `drypoint render head.nii.gz`. Exit codes: 0
-/// success, 1 a comparison failed, 2 bad use or bad input, 130 interrupted, 143 or 129 ended by SIGTERM or SIGHUP.
+/// success, 1 a comparison failed, 2 bad use or bad input, 3 a comparison proved nothing, 130 interrupted, 143 or 129
+/// ended by SIGTERM or SIGHUP.
 #[derive(Debug, Parser)]
 #[command(name = "drypoint", version, propagate_version = true, subcommand_required = true)]
 struct Cli {
@@ -89,7 +90,8 @@ enum Verb {
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),
-    /// Compare a graphics card with the reference, within derived bounds; exit code 1 when one is exceeded
+    /// Compare a graphics card with the reference, within derived bounds; exit code 1 when one is exceeded, 3 when there
+    /// is none
     Validate(validate::ValidateArgs),
     /// Measure error and time of every accuracy setting of a scene
     Cost(cost::CostArgs),
@@ -111,6 +113,9 @@ enum Done {
     Yes,
     /// A comparison failed.
     Different,
+    /// A comparison could not have failed.
+    #[cfg(feature = "gpu")]
+    NotProven,
 }
 
 type Outcome = Result<Done, Failures>;
@@ -118,7 +123,12 @@ type Outcome = Result<Done, Failures>;
 /// Exit code of bad use or bad input.
 const BAD: u8 = 2;
 
-/// Runs a command line. Exit codes: 0 done, 1 a comparison failed, 2 bad use or bad input, 128 + n ended by signal n.
+/// Exit code of a comparison that could not have failed.
+#[cfg(feature = "gpu")]
+const NOT_PROVEN: u8 = 3;
+
+/// Runs a command line. Exit codes: 0 done, 1 a comparison failed, 2 bad use or bad input, 3 a comparison proved nothing,
+/// 128 + n ended by signal n.
 pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     signals::remove_unfinished_at_the_end();
     match parsed(words) {
@@ -136,6 +146,8 @@ fn exit_code(outcome: Outcome) -> ExitCode {
     match outcome {
         Ok(Done::Yes) => ExitCode::SUCCESS,
         Ok(Done::Different) => ExitCode::FAILURE,
+        #[cfg(feature = "gpu")]
+        Ok(Done::NotProven) => ExitCode::from(NOT_PROVEN),
         Err(failures) => {
             report::say(failures);
             ExitCode::from(BAD)

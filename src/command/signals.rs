@@ -1,14 +1,19 @@
 //! Signals that end the command. No unfinished file stays.
 
 use drypoint::scene::atomic;
+#[cfg(unix)]
+use std::sync::{Arc, atomic::AtomicBool};
 
 /// Ends the process on SIGINT, SIGTERM and SIGHUP, after removing unfinished files. The exit code is 128 plus the
-/// signal's number, as in shells: 130, 143 and 129.
+/// signal's number, as in shells: 130, 143 and 129. SIGXFSZ does not end it: the write beyond the limit of file sizes
+/// fails, and whoever writes reports that.
 ///
 /// An unfinished file stays, under a temporary name, if no handler can be set or no thread started.
 #[cfg(unix)]
 pub(super) fn remove_unfinished_at_the_end() {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    // Any handler takes the place of the default, which ends the process. Nobody reads the flag.
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
     let ending = [SIGINT, SIGTERM].into_iter().chain(ends_on_hangup().then_some(SIGHUP));
     let Ok(mut signals) = signal_hook::iterator::Signals::new(ending) else { return };
     let _ = std::thread::Builder::new().spawn(move || {

@@ -7,7 +7,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// Compare a graphics card with the reference, stage by stage and within derived bounds; exit code 1 when a bound is
-/// exceeded.
+/// exceeded, 3 when nothing is proven: no bound is known for the scene, and the card has no f64.
 #[derive(Debug, Args)]
 pub(super) struct ValidateArgs {
     /// Scene (.toml) or volume
@@ -48,7 +48,16 @@ impl ValidateArgs {
         use drypoint::output::compare::{CompareOptions, flip};
         use drypoint::output::png;
         use drypoint::scene::picture::Provenance;
+        use drypoint::validate::{Validation, Verdict};
         use drypoint::{Failure, Format};
+
+        /// The comparison as JSON.
+        #[derive(serde::Serialize)]
+        struct Report<'v> {
+            #[serde(flatten)]
+            found: &'v Validation,
+            verdict: Verdict,
+        }
 
         if let Some(path) = &self.output {
             output_path::picture(path, &[Format::Png])?;
@@ -70,10 +79,14 @@ impl ValidateArgs {
             note(talk, path.display());
         }
         if self.json {
-            print_json(serde_json::to_string_pretty(&found))?;
+            print_json(serde_json::to_string_pretty(&Report { found: &found, verdict: found.verdict() }))?;
         } else {
             print(&format!("{found}\n"))?;
         }
-        Ok(if found.fails() { Done::Different } else { Done::Yes })
+        Ok(match found.verdict() {
+            Verdict::Kept => Done::Yes,
+            Verdict::Failed => Done::Different,
+            Verdict::NotProven => Done::NotProven,
+        })
     }
 }

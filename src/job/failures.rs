@@ -27,6 +27,11 @@ pub(super) fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
             (format!("halo[{halo}].seed.focus.pixels"), "give points of the world in its place: at = [[x, y, z]]")
         }
         ShotError::Motion => ("object".to_owned(), "move it less far, or scale it less"),
+        ShotError::ObjectTooLarge { object, .. } => {
+            let is_matrix = scene.objects.get(*object).is_some_and(|table| table.motion.matrix.is_some());
+            let key = if is_matrix { "matrix" } else { "scale" };
+            (format!("object[{object}].{key}"), "scale it less, or make sampling.step longer")
+        }
         ShotError::LabelName { halo, label } => (format!("halo[{halo}].seed.labels[{label}]"), "write the label's id"),
     };
     Failure::new(error, scene.given.position(&key), remedy)

@@ -5,6 +5,7 @@ use crate::Failure;
 use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::tables::{Scene, Table};
+use drypoint_scene::volume::Volume;
 
 /// Checks that the memory budget allows the table of the transfer function.
 pub(super) fn room_for_table(scene: &Scene) -> Result<(), Failure> {
@@ -16,6 +17,13 @@ pub(super) fn room_for_table(scene: &Scene) -> Result<(), Failure> {
         let remedy = format!("{} would fit", no_room.fitting(entries as u64));
         Failure::new(what, scene.given.position("transfer.table"), remedy)
     })
+}
+
+/// Returns the failure of a bare volume whose content the memory budget does not allow to find.
+pub(super) fn no_room_for_content(volume: &Volume, place: String, no_room: &NoRoom) -> Failure {
+    let [nx, ny, nz] = volume.dims();
+    let what = format!("the search for the content of {nx} × {ny} × {nz} voxels needs {no_room}");
+    Failure::new(what, place, "read less of the volume with volume.box or volume.stride, or allow more with --memory")
 }
 
 /// Checks that the memory budget allows the rays and images of a frame with halos.

@@ -67,12 +67,12 @@ fn volumes() {
 fn neither_a_scene_nor_a_volume() {
     let folder = folder();
     folder.write("notes.txt", "hello");
-    let suffixes = "check the path; scenes end in .toml, volumes in .nrrd, .nhdr, .nii, .nii.gz, .hdr, .hdr.gz, .img, .img.gz, .mhd, .mha, .raw, .raw.gz";
-    for (name, what) in [
-        ("folder", "a folder is neither a scene nor a volume"),
-        ("missing", "the file cannot be read: No such file or directory (os error 2)"),
+    let suffixes = "scenes end in .toml, volumes in .nrrd, .nhdr, .nii, .nii.gz, .hdr, .hdr.gz, .img, .img.gz, .mhd, .mha, .raw, .raw.gz";
+    for (name, what, remedy) in [
+        ("folder", "a folder is neither a scene nor a volume", "give a file that is in it: "),
+        ("missing", "the file cannot be read: No such file or directory (os error 2)", "check the path; "),
     ] {
-        let expected = format!("error: {what}\n  at: {name}\n  try: {suffixes}\n");
+        let expected = format!("error: {what}\n  at: {name}\n  try: {remedy}{suffixes}\n");
         assert_eq!(folder.refused(&format!("render {name} -o out.png")), expected);
         assert_eq!(folder.refused(&format!("plan {name}")), expected);
     }
@@ -111,6 +111,19 @@ fn dicom_is_told_what_converts_it() {
             assert_eq!(folder.refused(&format!("info {name}")), expected);
             assert_eq!(folder.refused(&format!("sheet {name} -o out.png")), expected);
         }
+    }
+}
+
+#[test]
+fn a_folder_of_dicom_is_told_what_converts_it() {
+    let folder = folder();
+    std::fs::create_dir(folder.path("series")).unwrap();
+    folder.write("series/IM0001", [&[0; 128][..], b"DICM"].concat());
+    let expected = "error: this is a folder of DICOM files, and DICOM is not read yet\n  at: series\n  try: convert its \
+                    series to .nii.gz or .nrrd first, such as with dcm2niix -z y -o . series; 3D Slicer and ITK-SNAP do \
+                    that, too\n";
+    for line in ["render series -o out.png", "info series", "plan series", "points series -o out.svg"] {
+        assert_eq!(folder.refused(line), expected, "{line}");
     }
 }
 

@@ -198,6 +198,87 @@ fn what_never_ends() {
     assert!(said.contains("key hatching.min_step\n  try: write \"0.000001 voxels\" or more\n"), "{said}");
 }
 
+/// The number of strokes follows from their distance, and is told before any is grown.
+#[test]
+fn lines_as_dense_as_no_pen_draws() {
+    let folder = Folder::new();
+    folder.torus();
+    for (set, key) in [
+        ("hatching.spacing=\"1e-4px\"", "spacing"),
+        ("hatching.spacing=\"1e-308px\"", "spacing"),
+        ("hatching.width=\"1e-4px\"", "width"),
+    ] {
+        let line = format!("strokes torus.nrrd --set hatching.spacing=\"tone\" --set {set} -o a.svg");
+        let said = folder.refused(&line);
+        assert!(said.starts_with(&format!("error: hatching.{key} puts lines 8.5e-")), "{said}");
+        assert!(said.contains(" strokes on the page, and at most 1e6 are drawn\n"), "{said}");
+        assert!(said.contains(&format!("  at: --set {set}, key hatching.{key}\n  try: make the distance ")), "{said}");
+        // What the message says is drawn; without seeds in no time.
+        let distance = said.split("make the distance ").nth(1).unwrap().split(" mm").next().unwrap();
+        let seeds = "--set hatching.min_curvature=1 --set hatching.min_gradient=1";
+        let set = format!("hatching.{key}=\"{distance}mm\"");
+        folder.good(&format!("strokes torus.nrrd --set hatching.spacing=\"tone\" --set {set} {seeds} -o a.svg"));
+        std::fs::remove_file(folder.path("a.svg")).unwrap();
+    }
+}
+
+/// A length of which millimetres or pixels are infinite.
+#[test]
+fn lengths_beyond_every_page() {
+    let folder = Folder::new();
+    folder.torus();
+    for set in ["stipples.size=\"1e308px\"", "outlines.width=\"1e308mm\"", "page.margin=\"1e308px\""] {
+        for file in ["a.svg", "a.pdf", "a.csv", "a.png"] {
+            let said = folder.refused(&format!("points torus.nrrd --set {set} -o {file}"));
+            let key = set.split('=').next().unwrap();
+            assert!(said.starts_with(&format!("error: {key} is ")), "{said}");
+            assert!(said.contains(&format!("  at: --set {set}, key {key}\n  try: give at most ")), "{said}");
+        }
+    }
+}
+
+/// Every sample in the box of an object is asked.
+#[test]
+fn objects_without_end() {
+    let folder = Folder::new();
+    folder.scene("[[object]]\nname = \"big\"\nvalue = [[90, 0], [160, 1]]\nscale = 1e4\n");
+    for (set, key) in [("object.0.scale=1e4", "scale"), ("object.0.scale=[1,1e200,1]", "scale")] {
+        let said = folder.refused(&format!("render scene.toml --set {set} -o a.png"));
+        assert!(said.starts_with("error: object 0 is about "), "{said}");
+        assert!(said.contains(" steps across, and at most 1e5 are drawn\n"), "{said}");
+        assert!(said.contains(&format!("key object[0].{key}\n  try: scale it less, ")), "{said}");
+    }
+    folder.good("render scene.toml --size 1x1 --set picture.samples=1 --set object.0.scale=20 -o a.png");
+}
+
+/// The runs of voxels of noise are many.
+#[test]
+fn the_search_for_content() {
+    let folder = Folder::new();
+    folder.good("phantom white-noise --size 200 --type u8 -o noise.nrrd -q");
+    let said = folder.refused("render noise.nrrd --size 16x16 -o a.png --memory 100MiB");
+    assert!(said.starts_with("error: the search for the content of 200 × 200 × 200 voxels needs 0."), "{said}");
+    assert!(
+        said.contains("  at: noise.nrrd\n  try: read less of the volume with volume.box or volume.stride, "),
+        "{said}"
+    );
+    folder.good("render noise.nrrd --size 16x16 -o a.png --memory 100MiB --set volume.stride=4");
+}
+
+/// A picture over two values is in memory as decoded and as colours: 64 bytes a pixel.
+#[test]
+fn pictures_of_intersections() {
+    let folder = Folder::new();
+    white(&folder, "meeting.png", 2000);
+    folder.scene(
+        "[[object]]\nname = \"part\"\nvalue = [[90, 0], [160, 1]]\nmove = [1, 0, 0]\n[[intersection]]\nobject = \
+         \"part\"\ncolor = \"meeting.png\"\n",
+    );
+    let said = folder.refused("render scene.toml -o a.png --memory 250MiB");
+    assert!(said.starts_with("error: a picture of 2000 × 2000 pixels needs 0.24 GiB of memory"), "{said}");
+    folder.good("render scene.toml -o a.png --memory 2GiB");
+}
+
 #[test]
 fn long_work_says_how_long() {
     let folder = Folder::new();

@@ -80,3 +80,24 @@ fn a_hangup_that_is_ignored_stays_ignored() {
     assert_eq!(child.wait().unwrap().code(), Some(143));
     assert_eq!(folder.read("noise.nrrd"), b"the old one");
 }
+
+/// A limit of file sizes makes the write fail. The unfinished file is removed, and the old one stays.
+#[test]
+fn a_write_beyond_the_limit_of_file_sizes_is_an_error() {
+    let folder = Folder::new();
+    // 4000 blocks of 512 or 1024 bytes.
+    let run = |size: u32| {
+        let line = format!("ulimit -f 4000; exec \"$0\" phantom white-noise --size {size} --type f64 -o noise.nrrd");
+        let mut command = Command::new("sh");
+        command.arg("-c").arg(line).arg(env!("CARGO_BIN_EXE_drypoint")).current_dir(folder.path(""));
+        let ended = command.output().unwrap();
+        (ended.status.code(), String::from_utf8(ended.stderr).unwrap())
+    };
+    // 0.9 MB fit, 8 MB do not.
+    assert_eq!(run(48).0, Some(0));
+    let before = folder.read("noise.nrrd");
+    let (code, said) = run(100);
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("noise.nrrd") && said.contains("ulimit -f"), "{said}");
+    assert_eq!((folder.listing().len(), folder.read("noise.nrrd") == before), (1, true));
+}

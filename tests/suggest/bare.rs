@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 /// The picture of a volume that is all that is given.
 fn picture_of(path: &Path, volume: Volume) -> (Measures, Ids) {
-    let mut scene = bare(path.to_owned(), &volume, [160, 160], &mut Counts::default());
+    let mut scene = bare(path.to_owned(), &volume, [160, 160], &mut Counts::default()).unwrap();
     scene.picture.background = Background::None;
     let ids = scene.volume.ids;
     let job = Job::with_volume(scene, volume).unwrap();
@@ -101,7 +101,7 @@ fn the_scene_of_a_label_volume_is_a_scene_file() {
     let path = folder.path().join("labels.nrrd");
     write_nrrd(&phantom("shepp-logan"), &path).unwrap();
     let volume = read::read(&path, None).unwrap();
-    let suggested = bare(path, &volume, [24, 24], &mut Counts::default());
+    let suggested = bare(path, &volume, [24, 24], &mut Counts::default()).unwrap();
     assert_eq!(suggested.volume.ids, Ids::Mask);
     let full = write_full(&suggested);
     let again = parse(&full, &folder.path().join("labels.toml"), &Overrides::default()).unwrap();
@@ -125,7 +125,7 @@ fn a_head_is_shown_without_its_rest_and_vessels_with_all_their_pieces() {
     let ball = |[x, y, z]: [f64; 3]| (x - 23.0).powi(2) + (y - 20.0).powi(2) + (z - 24.0).powi(2) < 196.0;
     let slab = |[x, y, z]: [f64; 3]| (18.0..28.0).contains(&x) && y == 42.0 && (20.0..31.0).contains(&z);
     let head = solid(|p| ball(p) || slab(p) || p == [2.0; 3]);
-    let suggested = bare("head.nrrd".into(), &head, [24, 24], &mut Counts::default());
+    let suggested = bare("head.nrrd".into(), &head, [24, 24], &mut Counts::default()).unwrap();
     // The scene says so, in a table that can be changed.
     let full = write_full(&suggested);
     assert!(full.contains("[volume.parts]") || full.contains("parts = {"), "{full}");
@@ -139,7 +139,7 @@ fn a_head_is_shown_without_its_rest_and_vessels_with_all_their_pieces() {
     let piece = |[x, y, z]: [f64; 3]| x % 8.0 < 3.0 && y % 8.0 == 2.0 && z % 24.0 == 2.0 && x > 8.0;
     let vessels = solid(|p| piece(p) || (p[1] - 24.0).abs() < 2.0 && (p[2] - 24.0).abs() < 2.0);
     for content in [vessels, phantom("tube-tree")] {
-        assert_eq!(bare("vessels.nrrd".into(), &content, [24, 24], &mut Counts::default()).volume.parts, None);
+        assert_eq!(bare("vessels.nrrd".into(), &content, [24, 24], &mut Counts::default()).unwrap().volume.parts, None);
     }
 }
 
@@ -147,7 +147,7 @@ fn a_head_is_shown_without_its_rest_and_vessels_with_all_their_pieces() {
 fn the_camera_frames_what_is_shown_in_pictures_of_any_shape() {
     for size in [[90, 60], [60, 90]] {
         let volume = phantom("torus");
-        let mut scene = bare("torus.nrrd".into(), &volume, size, &mut Counts::default());
+        let mut scene = bare("torus.nrrd".into(), &volume, size, &mut Counts::default()).unwrap();
         scene.picture.background = Background::None;
         let job = Job::with_volume(scene, volume).unwrap();
         let filled = measure(&job.renderer().unwrap().frame(&|_| ()).0).filled;
@@ -220,7 +220,7 @@ fn dark_content_is_drawn_as_its_mirror_image() {
         let mirror = if voxel_type == VoxelType::U8 { 250.0 } else { 0.0 };
         let [bright, dark] = [false, true].map(|dark| {
             let volume = field([40; 3], [1.0; 3], voxel_type, |d| if dark { mirror - value(d) } else { value(d) });
-            let outside = bare("a.nrrd".into(), &volume, [8; 2], &mut Counts::default()).volume.outside;
+            let outside = bare("a.nrrd".into(), &volume, [8; 2], &mut Counts::default()).unwrap().volume.outside;
             assert_eq!(outside, if dark { Outside::High } else { Outside::Low }, "{name}");
             picture_of(Path::new("ball.nrrd"), volume).0
         });

@@ -1,6 +1,6 @@
 //! The passes of a picture with halos, group of planes by group of planes ([HALO-1], [HALO-8], [HALO-9]).
 
-use crate::buffers::{buffer, entry, list_entry, pipeline};
+use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::shader::Shader;
 use crate::volumeshop::funnel::MAPS;
@@ -20,6 +20,9 @@ const PIXELS_AT_ONCE: u64 = 1 << 26;
 
 /// Bytes of a group of planes as a shader reads it.
 const GROUP_BYTES: u64 = 24;
+
+/// The name of the list of groups in errors.
+const GROUP_LIST: &str = "the groups of planes";
 
 /// The most tiles in each direction in which seeds of a tile are spread.
 const TILE_REACH: usize = 1;
@@ -254,8 +257,10 @@ impl HaloPlanes {
     pub(crate) fn draw(&self, canvas: &Canvas<'_>, maps: Option<&wgpu::Buffer>) -> Result<(), GpuError> {
         let gpu = canvas.gpu;
         let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
+        let count = self.groups.len() as u64 * u64::from(self.passes.max(1));
+        check_bytes(gpu, GROUP_LIST, count.saturating_mul(stride))?;
         let (records, firsts) = self.records(stride);
-        let group_list = buffer(gpu, "the groups of planes", &records, wgpu::BufferUsages::STORAGE)?;
+        let group_list = buffer(gpu, GROUP_LIST, &records, wgpu::BufferUsages::STORAGE)?;
         let tiles = self.size.tiles[0] * self.size.tiles[1];
         let flags = vec![0; 4 * (4 * tiles + self.groups.len())];
         let flags = buffer(gpu, "the list of tiles", &flags, wgpu::BufferUsages::STORAGE)?;
@@ -394,11 +399,7 @@ impl Images {
 
 /// A buffer that shaders fill.
 fn empty(gpu: &Gpu, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
-    let limits = gpu.device.limits();
-    let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    if bytes > most {
-        return Err(GpuError::TooManyBytes { what, bytes, most, adapter: gpu.name().to_owned() });
-    }
+    check_bytes(gpu, what, bytes)?;
     let descriptor = wgpu::BufferDescriptor {
         label: Some(what),
         size: bytes.max(16).next_multiple_of(16),

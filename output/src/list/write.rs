@@ -2,6 +2,7 @@
 
 use super::{COLUMNS, ListFormat};
 use crate::encode::hex;
+use crate::finite::check_finite;
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
@@ -12,16 +13,18 @@ use std::path::Path;
 /// Writes the dots of all layers. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`OutputError::Io`].
+/// [`OutputError::NotFinite`] and [`OutputError::Io`].
 pub fn write_dots(marks: &Marks, form: ListFormat, path: &Path) -> Result<(), OutputError> {
+    check_finite(marks)?;
     atomic::write(path, &encode_dots(marks, form))
 }
 
 /// Writes the lines of all layers. The file appears whole or not at all.
 ///
 /// # Errors
-/// [`OutputError::Io`].
+/// [`OutputError::NotFinite`] and [`OutputError::Io`].
 pub fn write_lines(marks: &Marks, form: ListFormat, path: &Path) -> Result<(), OutputError> {
+    check_finite(marks)?;
     atomic::write(path, &encode_lines(marks, form))
 }
 

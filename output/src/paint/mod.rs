@@ -7,6 +7,7 @@ mod lines;
 
 use crate::OutputError;
 use crate::disc::{Scratch, cover};
+use crate::finite::check_finite;
 use crate::layers::{check, fault, room};
 use canvas::Canvas;
 use drypoint_scene::color::{Rgba, premultiply};
@@ -85,8 +86,9 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
 /// composited, as viewers of SVG and PDF do.
 ///
 /// # Errors
-/// [`OutputError::Layer`] if the picture has no beauty, or one that does not fit its size.
+/// [`OutputError::Layer`] if the picture has no beauty, or one that does not fit its size; [`OutputError::NotFinite`].
 pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mut Picture) -> Result<(), OutputError> {
+    check_finite(marks)?;
     let size = [picture.width, picture.height];
     let at = picture.layers.iter().position(|layer| layer.kind == LayerKind::Beauty);
     let at = at.ok_or_else(|| fault(LayerKind::Beauty, "the picture does not have it".into()))?;

@@ -1,8 +1,7 @@
 //! Reading of EXR: every flat channel of every part, unchanged.
 
-use super::{DEFLATE, Image, check_claim};
+use super::{DEFLATE, Image, ImageLimits, check_claim};
 use crate::OutputError;
-use crate::layers::room;
 use exr::meta::attribute::{IntegerBounds, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::{Compression, FlatImage, FlatSamples, ReadChannels, ReadLayers, f16, read};
@@ -11,12 +10,12 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 /// Decodes the largest level of every part.
-pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
+pub(super) fn decode(bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<Image, OutputError> {
     let broken = |field: &str, fault: String| OutputError::Malformed { path: path.into(), field: field.into(), fault };
     // The decoder asserts its invariants by panics. A damaged file that reaches one is an error here.
     let image = catch_unwind(AssertUnwindSafe(|| -> Result<FlatImage, OutputError> {
         let chunks = exr::block::read(Cursor::new(bytes), false).map_err(|e| broken("EXR", e.to_string()))?;
-        check_headers(chunks.headers(), bytes, path)?;
+        check_headers(chunks.headers(), bytes, path, limits)?;
         read()
             .no_deep_data()
             .largest_resolution_level()
@@ -50,7 +49,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
 }
 
 /// Refuses unsupported files and claims that the file cannot hold, before anything is allocated.
-fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), OutputError> {
+fn check_headers(headers: &[Header], bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<(), OutputError> {
     let refuse =
         |field: &str, fault: String| Err(OutputError::Malformed { path: path.into(), field: field.into(), fault });
     let mut claimed = Some(0u64);
@@ -80,7 +79,7 @@ fn check_headers(headers: &[Header], bytes: &[u8], path: &Path) -> Result<(), Ou
     let channels: usize = headers.iter().map(|header| header.channels.list.len()).sum();
     let sizes = headers.iter().flat_map(|h| [h.layer_size, h.shared_attributes.display_window.size]);
     let largest = sizes.max_by_key(|size| size.area()).unwrap_or_default();
-    room(Some(path), [largest.width(), largest.height()], (4 + 8 + 8) * channels)
+    limits.check(path, [largest.width(), largest.height()], (4 + 8 + 8) * channels, 8 * channels)
 }
 
 /// Returns the samples as f64, which holds every f16, f32 and u32.
@@ -151,7 +150,7 @@ mod tests {
             [Compression::Uncompressed, Compression::RLE, Compression::ZIP1, Compression::ZIP16, Compression::PIZ]
         {
             let file = image(((0, 0), (3, 2)), vec![part(None, (0, 0), (3, 2), compression)]);
-            let image = super::decode(&file, Path::new("a.exr")).unwrap();
+            let image = crate::read::decode(&file, Path::new("a.exr")).unwrap();
             assert_eq!(image.channel("R").unwrap(), [0.5, 1.5, 2.5, 3.5, 4.5, 5.5]);
             assert_eq!(image.channel("id").unwrap()[1], 4_294_967_294.0);
         }
@@ -161,7 +160,7 @@ mod tests {
     fn the_display_window_is_the_picture() {
         // The data lie one to the left of the window and one below its top.
         let file = image(((10, 10), (3, 2)), vec![part(None, (9, 11), (3, 2), Compression::ZIP1)]);
-        let image = super::decode(&file, Path::new("a.exr")).unwrap();
+        let image = crate::read::decode(&file, Path::new("a.exr")).unwrap();
         assert_eq!((image.width, image.height), (3, 2));
         assert_eq!(image.channel("R").unwrap(), [0.0, 0.0, 0.0, 1.5, 2.5, 0.0]);
     }
@@ -169,7 +168,7 @@ mod tests {
     #[test]
     fn further_parts_bear_their_names() {
         let parts = ["beauty", "masks"].map(|name| part(Some(name), (0, 0), (2, 2), Compression::ZIP16));
-        let image = super::decode(&image(((0, 0), (2, 2)), parts.into()), Path::new("a.exr")).unwrap();
+        let image = crate::read::decode(&image(((0, 0), (2, 2)), parts.into()), Path::new("a.exr")).unwrap();
         assert_eq!(image.names(), ["R", "id", "masks.R", "masks.id"]);
     }
 
@@ -183,7 +182,7 @@ mod tests {
         for at in places {
             file[at + 8..at + 16].copy_from_slice(&[0, 0, 0, 0x40, 0, 0, 0, 0x40]);
         }
-        let error = super::decode(&file, Path::new("a.exr")).unwrap_err();
+        let error = crate::read::decode(&file, Path::new("a.exr")).unwrap_err();
         assert!(matches!(error, OutputError::TooLarge { .. } | OutputError::Malformed { .. }), "{error}");
     }
 }

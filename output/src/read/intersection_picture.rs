@@ -1,19 +1,20 @@
 //! Pictures of intersection transfer functions ([VS-4]).
 
-use super::{decode, has_alpha};
+use super::{ImageLimits, decode_within, has_alpha};
 use crate::OutputError;
 use drypoint_scene::color::unpremultiply;
-use drypoint_scene::intersection_picture::IntersectionPicture;
+use drypoint_scene::intersection_picture::{IntersectionPicture, MOST_SIDE};
 use drypoint_scene::memory;
 use std::path::Path;
 
 /// Reads a picture as straight linear colours.
 ///
 /// # Errors
-/// Same errors as [`read_image`](super::read_image); [`OutputError::NoColor`]; [`OutputError::Malformed`] for a value that is not finite.
+/// Same errors as [`read_image`](super::read_image); [`OutputError::Side`] for a side above [`MOST_SIDE`];
+/// [`OutputError::NoColor`]; [`OutputError::Malformed`] for a value that is not finite.
 pub fn read_intersection_picture(path: &Path) -> Result<IntersectionPicture, OutputError> {
     let bytes = memory::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
-    let image = decode(&bytes, path)?;
+    let image = decode_within(&bytes, path, &ImageLimits { side: MOST_SIDE, each: size_of::<[f64; 4]>() })?;
     let no_color = || OutputError::NoColor { name: path.display().to_string(), found: image.names() };
     let colors = image.colors().filter(|_| image.width > 0 && image.height > 0).ok_or_else(no_color)?;
     let pixel = |i: usize| {
@@ -54,6 +55,27 @@ mod tests {
             encoder.write_header().unwrap().write_image_data(bytes).unwrap();
             let picture = read_intersection_picture(&path).unwrap();
             assert_eq!(picture.has_opacity, expected, "{color:?}");
+        }
+    }
+
+    /// A picture as large as it may be is read, one pixel more is refused.
+    #[test]
+    fn a_side_has_a_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("wide.png");
+        for (width, is_read) in [(MOST_SIDE, true), (MOST_SIDE + 1, false)] {
+            let mut encoder = Encoder::new(std::fs::File::create(&path).unwrap(), width as u32, 1);
+            encoder.set_color(ColorType::Grayscale);
+            encoder.write_header().unwrap().write_image_data(&vec![7; width]).unwrap();
+            match read_intersection_picture(&path) {
+                Ok(picture) => assert!(is_read && picture.size == [width, 1]),
+                Err(error) => {
+                    let expected =
+                        "wide.png: a picture of 4097 × 1 pixels, and at most 4096 along a side are read here";
+                    assert!(!is_read && error.to_string().ends_with(expected), "{error}");
+                    assert_eq!(error.help(), "make the picture smaller");
+                }
+            }
         }
     }
 }

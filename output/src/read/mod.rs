@@ -6,6 +6,7 @@ mod intersection_picture;
 mod png;
 
 use crate::OutputError;
+use crate::layers::room;
 use drypoint_scene::memory;
 use drypoint_scene::picture::Picture;
 use std::path::Path;
@@ -90,10 +91,34 @@ pub fn read_image(path: &Path) -> Result<Image, OutputError> {
 /// # Errors
 /// Same errors as [`read_image`].
 pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
+    decode_within(bytes, path, &ImageLimits { side: usize::MAX, each: 0 })
+}
+
+/// The largest picture that is decoded for a use, and what the use makes of it.
+struct ImageLimits {
+    /// Most pixels along a side.
+    side: usize,
+    /// Bytes of memory a pixel that are made from the decoded channels, beside them.
+    each: usize,
+}
+
+impl ImageLimits {
+    /// Checks the size that a header says, before anything is allocated. A pixel takes `decoding` bytes while it is
+    /// decoded, and `decoded` bytes after that.
+    fn check(&self, path: &Path, size: [usize; 2], decoding: usize, decoded: usize) -> Result<(), OutputError> {
+        if size.iter().any(|&side| side > self.side) {
+            return Err(OutputError::Side { path: path.into(), size, most: self.side });
+        }
+        room(Some(path), size, decoding.max(decoded.saturating_add(self.each)))
+    }
+}
+
+/// Decodes bytes like [`decode`], within the limits of a use.
+fn decode_within(bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<Image, OutputError> {
     if bytes.starts_with(&PNG) {
-        png::decode(bytes, path)
+        png::decode(bytes, path, limits)
     } else if bytes.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        exr::decode(bytes, path)
+        exr::decode(bytes, path, limits)
     } else {
         Err(OutputError::UnknownFormat { path: path.into(), found: bytes[..bytes.len().min(8)].to_vec() })
     }

@@ -1,18 +1,20 @@
 //! Reading of PNG as linear premultiplied light ([VAL-3]).
 
-use super::{DEFLATE, Image, check_claim};
+use super::{DEFLATE, Image, ImageLimits, check_claim};
 use crate::OutputError;
-use crate::layers::room;
 use drypoint_scene::color::srgb_to_linear;
 use png::{BitDepth, ColorType, DecodeOptions, Decoder, DecodingError, Info, Limits, Transformations};
 use std::io::Cursor;
 use std::path::Path;
 
+/// Bytes of memory of a decoded pixel: four channels.
+const DECODED: usize = 4 * 8;
+
 /// Most bytes of memory that a pixel takes while decoding: four channels of 16 bits, their codes, and light.
-const PIXEL: usize = 4 * (2 + 2 + 8);
+const PIXEL: usize = 4 * (2 + 2) + DECODED;
 
 /// Decodes a PNG of any colour type and depth.
-pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
+pub(super) fn decode(bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<Image, OutputError> {
     let broken = |error: DecodingError| OutputError::Malformed {
         path: path.into(),
         field: "PNG".into(),
@@ -26,7 +28,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     let info = decoder.read_header_info().map_err(broken)?;
     let (claimed, size) = (raw_bytes(info), [info.width, info.height].map(|n| n as usize));
     check_claim(claimed, DEFLATE, bytes, path)?;
-    room(Some(path), size, PIXEL)?;
+    limits.check(path, size, PIXEL, DECODED)?;
     // The claim is checked above. The decoder's own limit would refuse large honest pictures.
     decoder.set_limits(Limits { bytes: usize::MAX });
     // Palette to colours, grey of 1, 2 and 4 bits to 8 (a whole factor), transparent colours to alpha.
@@ -79,8 +81,8 @@ fn raw_bytes(info: &Info<'_>) -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::read::ColorChannels;
+    use super::super::{ColorChannels, decode};
+    use super::{BitDepth, ColorType, OutputError, Path, srgb_to_linear};
     use png::Encoder;
 
     fn file(width: u32, color: ColorType, depth: BitDepth, data: &[u8], palette: Option<(&[u8], &[u8])>) -> Vec<u8> {

@@ -6,6 +6,7 @@ use super::curves::PathSegment;
 use super::decimals::{number, push};
 use super::groups::{PathGroup, Subpath, groups};
 use crate::encode::{quantize, srgb_bytes, straight_srgb};
+use crate::finite::check_finite;
 use crate::layers::{fitting, side};
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgba;
@@ -40,7 +41,7 @@ const FIRST: i32 = 8;
 /// is no date and no random number: equal pages give equal bytes.
 ///
 /// # Errors
-/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::Io`].
+/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::NotFinite`], [`OutputError::Io`].
 pub fn write_pdf(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_pdf(sheet)?)
 }
@@ -50,6 +51,7 @@ pub fn write_pdf(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
 /// # Errors
 /// Same errors as [`write_pdf`], except those of the file.
 pub fn encode_pdf(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
+    check_finite(sheet.marks)?;
     let mut content = Content::new(sheet);
     if let Some(color) = sheet.background {
         content.background(sheet, color);

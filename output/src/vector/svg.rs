@@ -6,6 +6,7 @@ use super::decimals::{number, push_pair};
 use super::groups::{PagePoint, PathGroup, Subpath, VectorPath, groups};
 use super::{VectorPage, base64, decimals};
 use crate::encode::hex;
+use crate::finite::check_finite;
 use crate::grid::micrometres;
 use crate::png::{KEYWORDS, encode_png};
 use crate::{OutputError, atomic};
@@ -20,7 +21,7 @@ use std::path::Path;
 /// a path. Coordinates have steps of 0.001 mm, as marks do. There is no date: equal pages give equal bytes.
 ///
 /// # Errors
-/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::Io`].
+/// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::NotFinite`], [`OutputError::Io`].
 pub fn write_svg(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_svg(sheet)?)
 }
@@ -43,8 +44,10 @@ impl<'w> Animation<'w> {
     /// Writes the next frame. The first frame gives page, metadata and background of all; the last one ends the file.
     ///
     /// # Errors
-    /// Errors of the writer, as [`OutputError::Io`] of the file `path`, and of a picture that cannot be encoded.
+    /// Errors of the writer, as [`OutputError::Io`] of the file `path`, of a picture that cannot be encoded, and
+    /// [`OutputError::NotFinite`].
     pub fn frame(&mut self, sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
+        check_finite(sheet.marks)?;
         let (i, all) = (self.written, self.frames);
         let mut bytes = Vec::new();
         if i == 0 {
@@ -89,6 +92,7 @@ impl<'w> Animation<'w> {
 /// # Errors
 /// Same errors as [`write_svg`], except those of the file.
 pub fn encode_svg(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
+    check_finite(sheet.marks)?;
     let mut out = Vec::new();
     head(sheet, &mut out);
     content(sheet, "", &mut out)?;

@@ -17,9 +17,14 @@ const FAR: f64 = 1.0 / 1024.0;
 /// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped: the mean over rays
 /// through a coarse grid of pixels, times the number of pixels.
 pub fn samples_in(lattice: &Lattice, view: &View, grid: &Grid) -> f64 {
+    samples_in_box(lattice, view, grid, grid.index_box())
+}
+
+/// About how many samples the rays have in a box of a grid's index space, as [`samples_in`].
+pub(super) fn samples_in_box(lattice: &Lattice, view: &View, grid: &Grid, ends: [DVec3; 2]) -> f64 {
     const SIDE: usize = 16;
     let [width, height] = view.size.map(|n| n as f64);
-    let [lo, hi] = grid.index_box().map(Vec3::from_glam);
+    let [lo, hi] = ends.map(Vec3::from_glam);
     let of_ray = |i: usize| {
         let at = |i: usize, n: f64| (i as f64 + 0.5) / SIDE as f64 * n;
         let ray = IndexRay::<f64>::new(&view.ray(at(i % SIDE, width), at(i / SIDE, height)), view, lattice, grid);

@@ -2,7 +2,7 @@
 
 use super::composite::depth_of_part;
 use super::inputs::{Inputs, RenderError};
-use super::lattice::IndexRay;
+use super::lattice::{IndexRay, samples_in_box};
 use super::prepare::{Camera, Fields, Place, prepare_object};
 use super::prepared::Prepared;
 use super::prepared_seeds::{PreparedSeeds, can_seed_at};
@@ -17,8 +17,8 @@ use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::parallel;
 use drypoint_scene::shot::{
-    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Membership, Part, Role, SelectionParams,
-    placed,
+    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Lattice, Membership, Part, Role,
+    SelectionParams, placed,
 };
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
@@ -230,6 +230,16 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         self.selections
             .iter()
             .any(|s| through(&s.here, s.members) || s.there.as_ref().is_some_and(|grid| through(grid, s.members)))
+    }
+
+    /// About how many samples the rays have in the boxes of objects that are not pieces of the background at their place.
+    pub(super) fn samples(&self, lattice: &Lattice, view: &View) -> f64 {
+        let apart = self.selections.iter().filter(|selection| selection.there.is_some() || !selection.takes);
+        let of = |selection: &PreparedSelection<'_, R>| {
+            let grid = selection.there.as_ref().unwrap_or(&selection.here);
+            selection.members.map_or(0.0, |ends| samples_in_box(lattice, view, grid, ends))
+        };
+        apart.map(of).sum()
     }
 
     /// Takes over what depends on the camera.

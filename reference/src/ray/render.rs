@@ -163,7 +163,9 @@ impl<'a> Renderer<'a> {
     /// The number of samples of a frame, roughly, if none is skipped and no pixel is refined.
     pub fn samples(&self) -> f64 {
         fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
-            samples_in(&p.lattice, &p.view, p.object.volume.grid()) * (p.rays_across * p.rays_across) as f64
+            let of_objects = p.combination.as_ref().map_or(0.0, |objects| objects.samples(&p.lattice, &p.view));
+            let of_ray = samples_in(&p.lattice, &p.view, p.object.volume.grid()) + of_objects;
+            of_ray * (p.rays_across * p.rays_across) as f64
         }
         match &self.ready {
             Ready::F64(p) => of(p),

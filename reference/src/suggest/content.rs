@@ -1,5 +1,6 @@
 //! The content of a volume as runs of voxels, which a camera frames and on which an object stands.
 
+use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::parallel;
 use drypoint_scene::tables::Outside;
 use drypoint_scene::volume::{Access, Volume, Voxel};
@@ -28,7 +29,7 @@ impl ContentRange {
 }
 
 /// A run of voxels from `first` to `last` along x.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct VoxelRun {
     pub first: usize,
     pub last: usize,
@@ -47,16 +48,20 @@ pub(super) struct VolumeContent {
 
 impl VolumeContent {
     /// Finds the content of a volume. If no value is inside, everything is content.
-    pub(super) fn of(volume: &Volume, inside: ContentRange) -> Self {
+    ///
+    /// # Errors
+    /// Memory that the budget does not allow.
+    pub(super) fn of(volume: &Volume, inside: ContentRange) -> Result<Self, NoRoom> {
         let dims = volume.dims();
-        let rows = with_access!(volume, |a| runs(volume, a, inside));
-        let runs = large_parts(&rows, dims);
+        let (runs, starts) = with_access!(volume, |a| runs(volume, a, inside))?;
+        let runs = large_parts(runs, &starts, dims);
         if runs.is_empty() {
             let [nx, ny, nz] = dims;
-            let row = |i: usize| VoxelRun { first: 0, last: nx - 1, y: i % ny, z: i / ny, solid: 0.0 };
-            return Self { dims, runs: (0..ny * nz).map(row).collect() };
+            memory::room_for(ny as u64 * nz as u64, size_of::<VoxelRun>() as u64)?;
+            let row = |i: usize| VoxelRun { last: nx - 1, y: i % ny, z: i / ny, ..VoxelRun::default() };
+            return Ok(Self { dims, runs: (0..ny * nz).map(row).collect() });
         }
-        Self { dims, runs }
+        Ok(Self { dims, runs })
     }
 
     /// The runs of voxels.
@@ -78,8 +83,10 @@ impl VolumeContent {
     }
 }
 
-/// The runs of every row, row after row.
-fn runs<A: Access>(volume: &Volume, a: A, inside: ContentRange) -> Vec<Vec<VoxelRun>> {
+/// The runs row after row, and the first run of each row with the end of the last.
+fn runs<A: Access>(volume: &Volume, a: A, inside: ContentRange) -> Result<(Vec<VoxelRun>, Vec<usize>), NoRoom> {
+    /// Bytes of a run while parts are found: itself, and its part's first run and size.
+    const RUN: u64 = (size_of::<VoxelRun>() + size_of::<usize>() + size_of::<f64>()) as u64;
     let [nx, ny, nz] = a.dims();
     let (slope, intercept) = (volume.slope(), volume.intercept());
     let shown = |x: usize, y: usize, z: usize| inside.depth(slope * a.at(x, y, z).to_f64() + intercept) >= 0.0;
@@ -90,32 +97,63 @@ fn runs<A: Access>(volume: &Volume, a: A, inside: ContentRange) -> Vec<Vec<Voxel
             && (z == 0 || shown(x, y, z - 1))
             && (z + 1 == nz || shown(x, y, z + 1))
     };
-    parallel::map(ny * nz, &|row| {
-        let (y, z) = (row % ny, row / ny);
-        let mut runs: Vec<VoxelRun> = Vec::new();
-        for x in (0..nx).filter(|&x| shown(x, y, z)) {
-            match runs.last_mut() {
-                Some(run) if run.last + 1 == x => run.last = x,
-                _ => runs.push(VoxelRun { first: x, last: x, y, z, solid: 0.0 }),
+    // Visits the first and the last voxel of each run of a row.
+    let visit = |y: usize, z: usize, run: &mut dyn FnMut(usize, usize)| {
+        let mut first = None;
+        for x in 0..nx {
+            match (shown(x, y, z), first) {
+                (true, None) => first = Some(x),
+                (false, Some(start)) => {
+                    run(start, x - 1);
+                    first = None;
+                }
+                _ => {}
             }
         }
-        for run in &mut runs {
-            let inner = if run.first == 0 { 0 } else { run.first + 1 }..if run.last + 1 == nx { nx } else { run.last };
-            let whole = inner.filter(|&x| solid(x, y, z)).count();
-            // Thin parts have no solid voxels. Their length decides among them.
-            run.solid = whole as f64 + 1e-3 * (run.last - run.first + 1) as f64;
+        if let Some(start) = first {
+            run(start, nx - 1);
         }
-        runs
-    })
+    };
+    // Runs are counted before they are kept, so that the budget is asked for no more than there are.
+    memory::room_for(ny as u64 * nz as u64 + 1, size_of::<usize>() as u64)?;
+    let mut starts = vec![0; ny * nz + 1];
+    parallel::chunks_mut(&mut starts[1..], ny, &|z, counts| {
+        for (y, count) in counts.iter_mut().enumerate() {
+            visit(y, z, &mut |_, _| *count += 1);
+        }
+    });
+    for row in 0..ny * nz {
+        starts[row + 1] += starts[row];
+    }
+    memory::room_for(starts[ny * nz] as u64, RUN)?;
+    // The runs of each slice fill their own part of the list.
+    let mut all = vec![VoxelRun::default(); starts[ny * nz]];
+    let (mut slices, mut rest) = (Vec::with_capacity(nz), all.as_mut_slice());
+    for z in 0..nz {
+        let (slice, after) = rest.split_at_mut(starts[(z + 1) * ny] - starts[z * ny]);
+        slices.push(slice);
+        rest = after;
+    }
+    parallel::each_of(slices, &|z, slice: &mut [VoxelRun]| {
+        let mut places = slice.iter_mut();
+        for y in 0..ny {
+            visit(y, z, &mut |first, last| {
+                let inner = if first == 0 { 0 } else { first + 1 }..if last + 1 == nx { nx } else { last };
+                let whole = inner.filter(|&x| solid(x, y, z)).count();
+                // Thin parts have no solid voxels. Their length decides among them.
+                let solid = whole as f64 + 1e-3 * (last - first + 1) as f64;
+                if let Some(place) = places.next() {
+                    *place = VoxelRun { first, last, y, z, solid };
+                }
+            });
+        }
+    });
+    Ok((all, starts))
 }
 
 /// The runs of connected parts that are not small compared with the largest. Voxels that share a corner are
 /// connected.
-fn large_parts(rows: &[Vec<VoxelRun>], [_, ny, nz]: [usize; 3]) -> Vec<VoxelRun> {
-    let all: Vec<VoxelRun> = rows.iter().flatten().copied().collect();
-    let mut starts = Vec::with_capacity(rows.len() + 1);
-    starts.push(0);
-    rows.iter().for_each(|row| starts.push(starts[starts.len() - 1] + row.len()));
+fn large_parts(mut all: Vec<VoxelRun>, starts: &[usize], [_, ny, nz]: [usize; 3]) -> Vec<VoxelRun> {
     let mut parent: Vec<usize> = (0..all.len()).collect();
     for z in 0..nz {
         for y in 0..ny {
@@ -142,7 +180,9 @@ fn large_parts(rows: &[Vec<VoxelRun>], [_, ny, nz]: [usize; 3]) -> Vec<VoxelRun>
         size[root(&mut parent, i)] += run.solid;
     }
     let least = PART * size.iter().copied().fold(0.0, f64::max);
-    (0..all.len()).filter(|&i| size[root(&mut parent, i)] >= least).map(|i| all[i]).collect()
+    let mut runs = 0..all.len();
+    all.retain(|_| runs.next().is_some_and(|i| size[root(&mut parent, i)] >= least));
+    all
 }
 
 /// The first run of a part. The path to it is halved on the way.
@@ -180,7 +220,7 @@ mod tests {
         let speck = |p: [usize; 3]| p == [2, 2, 2] || p == [2, 2, 3];
         let sheet = |[x, y, _]: [usize; 3]| y == 29 && x > 3;
         let v = volume(|p| if block(p) || branch(p) || speck(p) || sheet(p) { 9.0 } else { 0.0 });
-        let body = VolumeContent::of(&v, from(5.0));
+        let body = VolumeContent::of(&v, from(5.0)).unwrap();
         assert_eq!(ends(&body), [[8; 3], [29, 19, 19]]);
         let slices = body.slices(0);
         assert_eq!((slices[7], slices[8], slices[19], slices[29], slices[30]), (0.0, 144.0, 144.0, 1.0, 0.0));
@@ -189,7 +229,8 @@ mod tests {
 
     #[test]
     fn lines_alone_are_content() {
-        let body = VolumeContent::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5));
+        let body = VolumeContent::of(&volume(|[x, y, z]| if y == 4 && z == 5 && x > 6 { 1.0 } else { 0.0 }), from(0.5))
+            .unwrap();
         assert_eq!(ends(&body), [[7, 4, 5], [31, 4, 5]]);
     }
 
@@ -199,13 +240,14 @@ mod tests {
         let body = VolumeContent::of(
             &volume(|p| if block(p) { -4.0 } else { 9.0 }),
             ContentRange { value: 5.0, outside: Outside::High },
-        );
+        )
+        .unwrap();
         assert_eq!(ends(&body), [[8; 3], [19; 3]]);
     }
 
     #[test]
     fn nothing_is_everything() {
-        let body = VolumeContent::of(&volume(|_| 0.0), from(1.0));
+        let body = VolumeContent::of(&volume(|_| 0.0), from(1.0)).unwrap();
         assert_eq!(ends(&body), [[0; 3], [31; 3]]);
     }
 }

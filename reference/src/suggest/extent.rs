@@ -122,7 +122,7 @@ mod tests {
 
     fn reached<const N: usize>(volume: &Volume, value: f64, gradients: [DVec3; N]) -> [f64; N] {
         let inside = ContentRange { value, outside: Outside::Low };
-        reach(volume, &VolumeContent::of(volume, inside), inside, gradients)
+        reach(volume, &VolumeContent::of(volume, inside).unwrap(), inside, gradients)
     }
 
     #[test]

@@ -76,7 +76,7 @@ mod tests {
         let direction = DVec3::new(-0.6, 1.0, -0.45);
         // The surface at the content's own value passes through its outermost voxels.
         let seen = ContentRange { value: 200.0, outside: Outside::Low };
-        let body = VolumeContent::of(&volume, seen);
+        let body = VolumeContent::of(&volume, seen).unwrap();
         for size in [[400, 400], [600, 400], [300, 500]] {
             let fit = fit(&volume, &body, seen, direction, DVec3::Z, 30.0, size);
             let camera = Camera {
@@ -113,7 +113,7 @@ mod tests {
         let volume =
             Volume::new(Grid::with_spacing([4; 3], [1.0; 3]).unwrap(), Voxels::U8(vec![0; 64]), 1.0, 0.0).unwrap();
         let inside = ContentRange { value: 10.0, outside: Outside::Low };
-        let body = VolumeContent::of(&volume, inside);
+        let body = VolumeContent::of(&volume, inside).unwrap();
         let fit = fit(&volume, &body, inside, DVec3::Y, DVec3::Z, 30.0, [100, 100]);
         assert!(fit.eye.is_finite() && fit.eye.y < 0.0);
     }

@@ -16,6 +16,7 @@ mod surface_styles;
 use boundary::FirstSurfaces;
 use content::{ContentRange, VolumeContent};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
     Camera, Contours, GradientEstimator, HessianEstimator, Ids, Iso, Kappa, Kernel, Length, Outside, Projection, Scene,
@@ -44,15 +45,22 @@ const SMOOTHED: usize = 1 << 25;
 
 /// Makes a scene for a bare volume: an opaque surface, alone or in a translucent hull, with contours, framed by a
 /// camera. A label volume is shown as the surface of all labels. The number of voxels read goes to `counts`.
-pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+///
+/// # Errors
+/// Memory that the budget does not allow.
+pub fn scene(source: VolumeSource, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Result<Scene, NoRoom> {
     fill(Scene::for_volume(source), volume, size, counts)
 }
 
 /// Fills a scene that has tables of its own. A transfer function gets nodes and contours, an iso-surface or the
 /// surface of stipples the value of the outermost boundary. A scene without them gets the camera alone. The number of
 /// voxels read goes to `counts`.
-pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+///
+/// # Errors
+/// Memory that the budget does not allow.
+pub fn fill(scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Result<Scene, NoRoom> {
     if labels::are_ids(volume) {
+        memory::room(volume.grid().len() as u64)?;
         of_labels(scene, &volume.present(), size)
     } else {
         of_values(scene, volume, size, counts)
@@ -87,7 +95,7 @@ fn levels(volume: &Volume, outside: Outside, counts: &mut Counts) -> Option<Leve
     levels
 }
 
-fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Scene {
+fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Result<Scene, NoRoom> {
     let (boundary, outside) = FirstSurfaces::judge(levels(volume, Outside::Low, counts).as_ref(), volume);
     scene.volume.outside = outside;
     if let Some(transfer) = &mut scene.transfer {
@@ -115,24 +123,29 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
     };
     let shown = surface_styles::short(value, step);
     scene.volume.parts = debris::without_debris(volume, ContentRange { value: shown, outside });
-    frame(&mut scene, volume, [inside, seen], size);
-    scene
+    frame(&mut scene, volume, [inside, seen], size)?;
+    Ok(scene)
 }
 
 /// A scene of labels. A smoothing kernel rounds the step from 0 to 1 between voxels, or every voxel would show.
-fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Scene {
+fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Result<Scene, NoRoom> {
     scene.volume.ids = Ids::Mask;
     scene.sampling.kernel = Kernel::BsplineSmooth;
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(surface_styles::label_nodes());
     }
-    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size);
-    scene
+    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size)?;
+    Ok(scene)
 }
 
 /// Sets camera, picture and lines for the content, and for the visible surface around it.
-fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], size: [usize; 2]) {
-    let body = VolumeContent::of(volume, inside);
+fn frame(
+    scene: &mut Scene,
+    volume: &Volume,
+    [inside, seen]: [ContentRange; 2],
+    size: [usize; 2],
+) -> Result<(), NoRoom> {
+    let body = VolumeContent::of(volume, inside)?;
     let Stance { direction, up } = Stance::of(volume, &body);
     let fit = framing::fit(volume, &body, seen, direction, up, FOV, size);
     scene.picture.size = size;
@@ -149,7 +162,7 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
         scene.sampling.gradient = GradientEstimator::Sobel;
     }
     if scene.transfer.is_none() {
-        return;
+        return Ok(());
     }
     let thick = has_thick_slices(volume.grid());
     if thick && scene.surface.is_none() {
@@ -174,6 +187,7 @@ fn frame(scene: &mut Scene, volume: &Volume, [inside, seen]: [ContentRange; 2], 
         fade: Some([0.02, 0.1]),
         ..Contours::default()
     });
+    Ok(())
 }
 
 /// Whether one spacing is much larger than another, as between the slices of a scan. Axes of one voxel do not count.
@@ -222,7 +236,7 @@ mod tests {
 
     fn suggested(volume: &Volume) -> Scene {
         let source = VolumeSource::File { path: "x.nrrd".into(), raw: None };
-        scene(source, volume, [64, 64], &mut Counts::default())
+        scene(source, volume, [64, 64], &mut Counts::default()).unwrap()
     }
 
     #[test]
@@ -271,7 +285,7 @@ mod tests {
         let ball = typed(|p| 200.0 / (1.0 + (radius(p) - 10.0).exp()), VoxelType::U8);
         let source = VolumeSource::File { path: "x.nrrd".into(), raw: None };
         let stage = Scene { transfer: None, ..Scene::for_volume(source) };
-        let stage = fill(stage, &ball, [64, 64], &mut Counts::default());
+        let stage = fill(stage, &ball, [64, 64], &mut Counts::default()).unwrap();
         assert_eq!(stage.camera, suggested(&ball).camera);
         assert_eq!((stage.transfer, stage.contours), (None, None));
     }

@@ -129,7 +129,7 @@ mod tests {
     /// The stance of an object in 32³ voxels.
     fn stance(inside: impl Fn([f64; 3]) -> bool) -> Stance {
         let v = volume(|p| if inside(p.map(|i| i as f64)) { 1.0 } else { 0.0 });
-        Stance::of(&v, &VolumeContent::of(&v, INSIDE))
+        Stance::of(&v, &VolumeContent::of(&v, INSIDE).unwrap())
     }
 
     fn ball([x, y, z]: [f64; 3], centre: [f64; 3], r: f64) -> bool {
@@ -181,7 +181,7 @@ mod tests {
             (Anatomy::LeftAnteriorSuperior, -DVec3::Y),
         ] {
             let v = volume(|_| 1.0).with_anatomy(Some(anatomy));
-            let s = Stance::of(&v, &VolumeContent::of(&v, INSIDE));
+            let s = Stance::of(&v, &VolumeContent::of(&v, INSIDE).unwrap());
             assert!(s.up == DVec3::Z && s.direction.normalize().dot(front) > 0.7, "{anatomy:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! The page.
 
-use crate::tables::{Length, Scene};
+use crate::tables::{Length, PictureSettings, Scene};
 use glam::DVec2;
 
 /// Millimetres of an inch.
@@ -42,19 +42,24 @@ impl Page {
 
     /// The page of a scene: in mm where `picture.width` or `picture.height` is, with the margin of `[page]`.
     pub fn of(scene: &Scene) -> Self {
-        let picture = &scene.picture;
-        let mut page = Self::in_pixels(picture.size, 0.0, picture.dpi);
-        if let Some(extent) = picture.extent()
-            && extent.iter().any(|length| matches!(length, Length::Millimetres(_)))
-        {
-            let [width, height] = extent.map(|length| page.length(length).unwrap_or_default());
-            page = Self::in_millimetres(DVec2::new(width, height), 0.0, picture.dpi);
-        }
+        let mut page = Self::of_picture(&scene.picture);
         if let Some(settings) = &scene.page {
             page.margin = page.length(settings.margin).unwrap_or_default();
             page.size += 2.0 * page.margin;
         }
         page
+    }
+
+    /// The page of a picture without margin.
+    pub(crate) fn of_picture(picture: &PictureSettings) -> Self {
+        let page = Self::in_pixels(picture.size, 0.0, picture.dpi);
+        match picture.extent() {
+            Some(extent) if extent.iter().any(|length| matches!(length, Length::Millimetres(_))) => {
+                let [width, height] = extent.map(|length| page.length(length).unwrap_or_default());
+                Self::in_millimetres(DVec2::new(width, height), 0.0, picture.dpi)
+            }
+            _ => page,
+        }
     }
 
     /// Pixels of one millimetre.

@@ -5,6 +5,7 @@ pub mod read;
 
 pub use box_node::BoxNode;
 use glam::{DAffine3, DVec3};
+use std::collections::HashSet;
 
 /// A mesh of triangles, in world units.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,6 +100,17 @@ impl TriangleMesh {
         let of_normals = map.matrix3.inverse().transpose();
         let normals = self.normals.map(|normals| normals.iter().map(|&n| of_normals * n).collect());
         Self::new(positions, normals, self.triangles)
+    }
+
+    /// Leaves out each triangle whose corners are those of an earlier one, in the same order. A line meets both at one
+    /// place and sees the first, and a tree over equal boxes takes quadratic time.
+    fn without_repeated(mut self) -> Self {
+        let positions = &self.positions;
+        // The sum turns −0 into 0.
+        let corner = |i: u32| positions[i as usize].to_array().map(|x| (x + 0.0).to_bits());
+        let mut seen = HashSet::with_capacity(self.triangles.len());
+        self.triangles.retain(|triangle| seen.insert(triangle.map(corner)));
+        self
     }
 
     /// Size in bytes.

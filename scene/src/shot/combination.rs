@@ -13,6 +13,10 @@ use glam::{DAffine3, DVec3};
 use serde::Serialize;
 use std::sync::Arc;
 
+/// The most steps across an object, whose samples are all asked: more than ten of the largest volumes have at the default
+/// step. A ray through so many takes about a hundredth of a second.
+pub const MOST_STEPS: f64 = 1e5;
+
 /// Objects that are drawn with the background, which is the shot's own object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Combination {
@@ -152,7 +156,7 @@ impl Shot {
     /// [`Scene::parts`]. `range` is that of `[volume]` ([VAL-1]).
     ///
     /// # Errors
-    /// See [`Shot::resolve`], of a part.
+    /// See [`Shot::resolve`], of a part; an object of more than [`MOST_STEPS`] steps across.
     pub fn with_objects(
         self,
         scene: &Scene,
@@ -163,6 +167,13 @@ impl Shot {
     ) -> Result<Self, ShotError> {
         let described: Vec<SelectionParams> =
             scene.objects.iter().zip(selections).map(|(table, facts)| SelectionParams::new(table, facts)).collect();
+        // Every sample in the box of a selection is asked, so that the number of steps across it is bounded.
+        for (object, (params, facts)) in described.iter().zip(selections).enumerate() {
+            let steps = params.steps_across(facts, self.lattice.step)?;
+            if steps > MOST_STEPS {
+                return Err(ShotError::ObjectTooLarge { object, steps });
+            }
+        }
         let places: Vec<(usize, Role)> = scene.parts().collect();
         let parts: Result<Vec<Part>, ShotError> = places
             .iter()
@@ -233,6 +244,20 @@ impl SelectionParams {
             motion: table.motion.is_moved().then(|| table.motion.map(facts.centre())),
             has_own_volume: table.volume.is_some(),
         }
+    }
+}
+
+impl SelectionParams {
+    /// Returns the diagonal of the box of the selection, or of its data, where M moves it, in steps.
+    fn steps_across(&self, facts: &SelectionFacts, step: f64) -> Result<f64, ShotError> {
+        let placed = placed(&facts.grid, self.motion)?;
+        let [lo, hi] = self.index_box.unwrap_or_else(|| placed.index_box());
+        let sides = (hi - lo).to_array();
+        let columns = [placed.axes().x_axis, placed.axes().y_axis, placed.axes().z_axis];
+        // A sheared box has diagonals of four lengths.
+        let diagonals = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]]
+            .map(|[y, z]| (columns[0] * sides[0] + columns[1] * (y * sides[1]) + columns[2] * (z * sides[2])).length());
+        Ok(diagonals.into_iter().fold(0.0, f64::max) / step)
     }
 }
 
@@ -313,5 +338,26 @@ mod tests {
         assert_eq!(members(&[[11.0, 1.0], [30.0, 0.0]], Some(&bricks)), Some(grid.index_box()));
         assert_eq!(members(&[[0.0, 0.0], [9.0, 0.0]], Some(&bricks)), None);
         assert_eq!(members(&high, None), Some(grid.index_box()));
+    }
+
+    /// A box of 4 × 2 × 0 voxels has a diagonal of √20, ten steps a unit.
+    #[test]
+    fn steps_across_a_selection_by_hand() {
+        let grid = Grid::with_spacing([9, 5, 3], [1.0; 3]).unwrap();
+        let index_box = Some([DVec3::new(1.0, 1.0, 2.0), DVec3::new(5.0, 3.0, 2.0)]);
+        let facts = SelectionFacts { grid, index_box };
+        let of = |motion, index_box| {
+            let membership = Membership::Voxels;
+            SelectionParams { membership, index_box, motion, has_own_volume: false }.steps_across(&facts, 0.1).unwrap()
+        };
+        let twice = Some(DAffine3::from_scale(DVec3::splat(2.0)));
+        assert!((of(None, index_box) - 10.0 * 20f64.sqrt()).abs() < 1e-12);
+        assert!((of(twice, index_box) - 20.0 * 20f64.sqrt()).abs() < 1e-12);
+        // Without a box it is that of the grid: 8 × 4 × 2.
+        assert!((of(None, None) - 10.0 * 84f64.sqrt()).abs() < 1e-12);
+        // Sheared by as much as x is long, one diagonal grows to (12, 4, 2).
+        let mut sheared = DAffine3::IDENTITY;
+        sheared.matrix3.y_axis.x = 1.0;
+        assert!((of(Some(sheared), None) - 10.0 * (144.0f64 + 16.0 + 4.0).sqrt()).abs() < 1e-12);
     }
 }

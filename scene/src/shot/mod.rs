@@ -23,7 +23,7 @@ pub use crate::tables::{
 };
 pub use clipping::{Cap, Clipping};
 pub use combination::{
-    Combination, Cutaway, Intersection, IntersectionPaint, Membership, Part, PartFacts, SelectionFacts,
+    Combination, Cutaway, Intersection, IntersectionPaint, MOST_STEPS, Membership, Part, PartFacts, SelectionFacts,
     SelectionParams, placed,
 };
 pub use halo::{HaloParams, HaloSeed, HaloSpread, Halos, PartSeeds, SeedFocus, SeedSide};
@@ -169,6 +169,14 @@ pub enum ShotError {
     /// A motion moves an object out of the range of numbers.
     #[error("the motion of an object leaves the range of numbers")]
     Motion,
+    /// An object of so many steps across that its rays have no end.
+    #[error("object {object} is about {steps:.1e} steps across, and at most {MOST_STEPS:.0e} are drawn")]
+    ObjectTooLarge {
+        /// The object's place in the list.
+        object: usize,
+        /// Steps along the longest diagonal of its box.
+        steps: f64,
+    },
     /// A label of a halo is still a name.
     #[error("label {label} of halo {halo} is a name, and its id was not looked up")]
     LabelName {

@@ -23,7 +23,7 @@ const CROSSED: f64 = 0.6;
 const GRAIN: f64 = 0.4;
 
 /// Shortest line on the page, in widths of the pen.
-const SHORTEST: f64 = 6.0;
+pub(super) const SHORTEST: f64 = 6.0;
 
 impl GrownHatching<'_> {
     /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own.

@@ -8,6 +8,7 @@ mod growth_settings;
 use super::visible_values::VisibleValues;
 use super::{in_world, on_page, pen, value};
 use crate::Failure;
+use draw::SHORTEST;
 use drypoint_reference::field::Field;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
@@ -41,6 +42,9 @@ const TERMS: u64 = 16;
 
 /// Faintest tone that spacing gives.
 const LEAST: f64 = 0.08;
+
+/// The most strokes that a distance of lines may ask for: a page of them takes about an hour.
+const MOST_STROKES: f64 = 1e6;
 
 /// Settings of hatching for a scene and its page.
 pub(super) struct HatchingSetup<'a> {
@@ -83,6 +87,24 @@ struct GrownStrokes {
     across: Vec<(DVec3, Stroke)>,
 }
 
+/// Checks that lines of a distance and a length in mm, that of a key of `[hatching]`, fill the page with a number of
+/// strokes that can be drawn.
+fn check_strokes(scene: &Scene, page: &Page, [distance, length]: [f64; 2], key: &str) -> Result<(), Failure> {
+    let area = page.picture().x * page.picture().y;
+    let strokes = area / (distance * length);
+    if strokes <= MOST_STROKES {
+        return Ok(());
+    }
+    let what = format!(
+        "hatching.{key} puts lines {distance:.1e} mm apart: about {strokes:.1e} strokes on the page, and at most \
+         {MOST_STROKES:.0e} are drawn"
+    );
+    // Two digits round by 5 % at the most.
+    let least = 1.06 * area / (MOST_STROKES * length);
+    let remedy = format!("make the distance {least:.1e} mm or more");
+    Err(Failure::new(what, scene.given.position(&format!("hatching.{key}")), remedy))
+}
+
 impl<'a> HatchingSetup<'a> {
     /// Converts the table. `scale` is the largest number of mm on the page a world unit takes.
     pub(super) fn new(
@@ -117,6 +139,16 @@ impl<'a> HatchingSetup<'a> {
         let finest = FINEST * grid.voxel();
         how.chord = how.chord.min((MOST_OFF / scale).max(finest));
         how.offset = how.offset.min((0.5 * pen.width / scale).max(finest));
+        // The number of strokes follows from their distance and their length on the page.
+        let distance = match spacing {
+            Some(room::LineDistance::Everywhere(distance)) => Some((distance, "spacing")),
+            Some(room::LineDistance::Tone { .. }) => Some((pen.width, table.pen.as_ref().map_or("width", |_| "pen"))),
+            None => None,
+        };
+        if let Some((distance, key)) = distance {
+            let length = (how.length * scale).min(page.size.length()).max(SHORTEST * pen.width);
+            check_strokes(scene, page, [distance, length], key)?;
+        }
         // Gaps, the table of light, and dashes, each checked.
         let deeper = in_world(scene, table.gap_depth, "hatching.gap_depth", grid)?;
         let gap = table.gap.map(|gap| on_page(scene, page, gap, "hatching.gap")).transpose()?;

@@ -22,7 +22,8 @@ fn basins_are_those_of_scikit_image() {
             .zip(1..)
             .map(|(i, basin)| Marker { voxel: [i % dims[0], i / dims[0] % dims[1], i / dims[0] / dims[1]], basin })
             .collect();
-        let found = basins(dims, &markers, |voxel| !walls.contains(&index(voxel)), |voxel| relief[index(voxel)] as f64);
+        let found =
+            basins(dims, &markers, &|voxel| !walls.contains(&index(voxel)), &mut |voxel| relief[index(voxel)] as f64);
         let found: Vec<usize> = found.unwrap().into_iter().map(|basin| basin as usize).collect();
         assert_eq!(found, numbers(&case["basins"]), "{dims:?}");
         assert!((1..=4).all(|basin| found.contains(&basin)));

@@ -155,7 +155,7 @@ impl<'a> Painter<'a> {
         let field = Field::<f64>::new(self.volume, Reconstruction::default(), Rung::Gradient);
         let field = field.map_err(PaintError::Field)?;
         // Squares have the order of magnitudes.
-        self.watershed_over(selection, seeds, |voxel| {
+        self.watershed_over(selection, seeds, &mut |voxel| {
             let gradient = field.voxel_gradient(voxel);
             gradient.dot(gradient)
         })
@@ -165,11 +165,11 @@ impl<'a> Painter<'a> {
     ///
     /// # Errors
     /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
-    pub fn watershed_over(
+    fn watershed_over(
         &self,
         selection: &mut Selection,
         seeds: &[Seed],
-        relief: impl FnMut([usize; 3]) -> f64,
+        relief: &mut dyn FnMut([usize; 3]) -> f64,
     ) -> Result<Painted, PaintError> {
         let mut markers = Vec::new();
         for (i, seed) in seeds.iter().enumerate() {
@@ -177,7 +177,7 @@ impl<'a> Painter<'a> {
         }
         let dims = self.volume.dims();
         let basins =
-            with_access!(self.volume, |access| basins(dims, &markers, |voxel| self.shows(access, voxel), relief))?;
+            with_access!(self.volume, |access| basins(dims, &markers, &|voxel| self.shows(access, voxel), relief))?;
         let voxels = basins.iter().filter(|&&basin| basin > 0).count();
         let change = |[x, y, z]: [usize; 3], f| match basins[(z * dims[1] + y) * dims[0] + x].checked_sub(1) {
             Some(seed) => composed(seeds[seed as usize].mode, f, 1.0),

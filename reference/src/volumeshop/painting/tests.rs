@@ -240,7 +240,7 @@ fn floods_come_through_the_lowest_pass() {
         .enumerate()
         .map(|(i, voxel)| Marker { voxel, basin: i as u32 + 1 })
         .collect();
-    let found = basins(dims, &markers, passes, relief).unwrap();
+    let found = basins(dims, &markers, &passes, &mut |voxel| relief(voxel)).unwrap();
     // The lowest highest point of paths from each marker, by relaxation over all pairs of neighbours.
     let pass_heights: Vec<Vec<f64>> = markers
         .iter()

@@ -2,6 +2,7 @@
 
 mod halos;
 mod objects;
+mod page;
 
 use crate::document::Problem;
 use crate::document::check::Check;
@@ -18,6 +19,7 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     colors(scene, check);
     halos::check(scene, check);
     objects::check(scene, check);
+    page::check(scene, check);
 }
 
 /// Every style that a node names must be one that the theme or a file provides. A folder of pictures that cannot be

@@ -66,7 +66,8 @@ impl From<MeshFault> for MeshReason {
     }
 }
 
-/// Reads a mesh, as the suffix says. Polygons become fans of triangles about their first corner.
+/// Reads a mesh, as the suffix says. Polygons become fans of triangles about their first corner. Repeated triangles are
+/// left out.
 ///
 /// # Errors
 /// A file that cannot be read, is cut short, has text or numbers that its format does not have, or no triangle.
@@ -84,7 +85,7 @@ pub fn read(path: &Path) -> Result<TriangleMesh, MeshError> {
         let unreadable = |error: std::io::Error| MeshReason::Unreadable(error.to_string());
         let bytes = memory::read(path).map_err(unreadable)?;
         memory::room_for(bytes.len() as u64, EACH).map_err(|no_room| unreadable(no_room.into()))?;
-        parse(bytes)
+        parse(bytes).map(TriangleMesh::without_repeated)
     };
     read().map_err(|reason| MeshError { path: path.to_path_buf(), reason })
 }

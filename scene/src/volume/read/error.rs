@@ -41,6 +41,9 @@ pub enum Fault {
     /// A file of a format that hospitals write and this program does not read.
     #[error("this is a DICOM file, and DICOM is not read yet")]
     Dicom,
+    /// A folder of files of that format.
+    #[error("this is a folder of DICOM files, and DICOM is not read yet")]
+    DicomFolder,
     /// The file does not begin as its format does.
     #[error("this is not {format}: it begins with {found}, expected {expected}")]
     Magic {
@@ -216,6 +219,11 @@ impl ReadError {
             Fault::Dicom => {
                 "convert its series to .nii.gz or .nrrd first: dcm2niix, 3D Slicer and ITK-SNAP do that".into()
             }
+            Fault::DicomFolder => format!(
+                "convert its series to .nii.gz or .nrrd first, such as with dcm2niix -z y -o . {}; 3D Slicer and \
+                 ITK-SNAP do that, too",
+                self.file.display()
+            ),
             Fault::Magic { .. } => "check that the suffix says what the file holds".into(),
             Fault::EndlessHeader { .. } | Fault::Line { .. } | Fault::Value { .. } | Fault::Sidecar(_) => {
                 format!("correct the {header}")

@@ -70,19 +70,26 @@ pub fn read_part(path: &Path, raw: Option<&RawLayout>, choose: &Choose<'_>) -> R
     }
 }
 
-/// Refuses a DICOM file: one with its suffix, or with its mark behind a preamble of 128 bytes.
+/// Refuses a DICOM file, and a folder of such files.
 ///
 /// # Errors
-/// [`Fault::Dicom`]. A file that cannot be read passes: who reads it says why.
+/// [`Fault::Dicom`] and [`Fault::DicomFolder`]. A path that cannot be read passes: who reads it says why.
 pub fn refuse_dicom(path: &Path) -> Result<(), ReadError> {
-    let Ok((file, _)) = header::open(path) else { return Ok(()) };
+    /// Entries of a folder that are looked at.
+    const ENTRIES: usize = 64;
+    if let Ok(entries) = std::fs::read_dir(path) {
+        let mut files = entries.take(ENTRIES).flatten().map(|entry| entry.path()).filter(|path| path.is_file());
+        return if files.any(|file| is_dicom(&file)) { Err(ReadError::new(path, Fault::DicomFolder)) } else { Ok(()) };
+    }
+    if is_dicom(path) { Err(ReadError::new(path, Fault::Dicom)) } else { Ok(()) }
+}
+
+/// Whether a file is one of DICOM: by its suffix, or by its mark behind a preamble of 128 bytes.
+fn is_dicom(path: &Path) -> bool {
+    let Ok((file, _)) = header::open(path) else { return false };
     let has_suffix = path.extension().is_some_and(|e| ["dcm", "dicom"].iter().any(|s| e.eq_ignore_ascii_case(s)));
     let mut start = Vec::new();
-    let is_read = file.take(132).read_to_end(&mut start).is_ok();
-    if has_suffix || is_read && start.get(128..) == Some(b"DICM") {
-        return Err(ReadError::new(path, Fault::Dicom));
-    }
-    Ok(())
+    has_suffix || file.take(132).read_to_end(&mut start).is_ok() && start.get(128..) == Some(b"DICM")
 }
 
 /// The longest of [`EXTENSIONS`] that a path ends with.

@@ -334,6 +334,18 @@ fn dicom() {
     preamble[130] = b'X';
     let other = folder.read("IM0002", &preamble).unwrap_err();
     assert!(matches!(*other.fault, super::super::Fault::Suffix), "{other}");
+    // A folder says how to convert what is in it. Folders in it are not looked into.
+    for (name, file) in [("series", "IM0001"), ("suffix", "1.dcm")] {
+        std::fs::create_dir_all(folder.path(name).join("more")).unwrap();
+        preamble[130] = b'C';
+        std::fs::write(folder.path(name).join(file), &preamble).unwrap();
+        let [what, place, remedy] = lines(&folder, read(&folder.path(name), None));
+        assert_eq!([what, place], ["this is a folder of DICOM files, and DICOM is not read yet", name]);
+        assert!(remedy.starts_with("convert its series to .nii.gz or .nrrd first, such as with dcm2niix -z y -o . "));
+        assert!(remedy.ends_with(&format!("{name}; 3D Slicer and ITK-SNAP do that, too")), "{remedy}");
+    }
+    std::fs::create_dir(folder.path("empty")).unwrap();
+    assert_eq!(lines(&folder, read(&folder.path("empty"), None))[2], "give a file that may be read");
     // A layout that is given wins over the mark.
     let layout = RawLayout { size: [141, 1, 1], voxel_type: U8, big_endian: false, spacing: [1.0; 3], skip: 0 };
     assert!(read(&folder.path("c.nii"), Some(&layout)).is_ok());
