@@ -24,6 +24,11 @@ impl Failure {
         Self { what: line(&what), place: line(&place), remedy: line(&remedy) }
     }
 
+    /// Returns the failure of a volume's file, with the position of the key that names it.
+    pub fn of_file(error: &ReadError, key: impl fmt::Display) -> Self {
+        Self::new(error.what(), format!("{}, {key}", error.place()), error.remedy())
+    }
+
     /// Returns the failure of a picture's file. `place` is used if the error names no file.
     pub fn picture(error: &OutputError, place: impl fmt::Display) -> Self {
         let text = error.to_string();

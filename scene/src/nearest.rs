@@ -1,10 +1,16 @@
 //! The known name that a misspelt one probably meant ([SCN-4]).
 
+/// The most characters of a name that is looked for or found. Comparing two names takes the product of their lengths.
+const LONGEST: usize = 100;
+
 /// The name with the fewest slips: characters changed, added, left out, or two neighbours swapped. Capitals do not
 /// count. At most a third of the longer name may be slips, but one slip is always allowed. Ties go to the first name.
+/// Names of more than 100 characters have no nearest one.
 pub(crate) fn nearest<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let length = |name: &str| Some(name.chars().take(LONGEST + 1).count()).filter(|&n| n <= LONGEST);
+    let wanted_length = length(wanted)?;
     let slips = |name: &str| {
-        let allowed = (wanted.chars().count().max(name.chars().count()) / 3).max(1);
+        let allowed = (wanted_length.max(length(name)?) / 3).max(1);
         Some(distance(wanted, name)).filter(|&d| d <= allowed)
     };
     // `min_by_key` keeps the first of equals.
@@ -56,5 +62,9 @@ mod tests {
         assert_eq!(nearest("porcelain", ["bone", "metal"]), None);
         assert_eq!(nearest("xp", ["up", "xu"]), Some("up"));
         assert_eq!(nearest("max", [] as [&str; 0]), None);
+        for (n, is_found) in [(LONGEST, true), (LONGEST + 1, false)] {
+            let [a, b] = ["a", "b"].map(|end| "é".repeat(n - 1) + end);
+            assert_eq!(nearest(&a, [b.as_str()]), Some(b.as_str()).filter(|_| is_found));
+        }
     }
 }

@@ -5,6 +5,7 @@ use super::report::note;
 use drypoint::drawing::Frame;
 use drypoint::job::Job;
 use drypoint::scene::counts::Counts;
+use drypoint::scene::shot::OutOfSight;
 use drypoint::scene::tables::{HatchIso, Hatching, Hidden, Iso, Outlines, Spacing};
 
 /// Warns if the first frame shows nothing. `made` is the counts of preparation and of the frame.
@@ -16,8 +17,36 @@ pub(super) fn warn_of_nothing(job: &Job, frame: &Frame, made: [&Counts; 2], talk
         note(talk, format_args!("warning: the page is empty{colon}{}", why.join("; ")));
     }
     if job.draws_volume() && frame.picture.as_ref().is_some_and(|picture| job.shows_nothing(picture)) {
-        let seen = "nothing is seen: no ray meets a value that transfer.nodes show; `drypoint info` tells the range";
-        note(talk, format_args!("warning: {seen} of a volume, `drypoint plan --full` the nodes and the camera"));
+        note(talk, format_args!("warning: nothing is seen: {}", unmet(job)));
+    }
+}
+
+/// Returns the reason why a picture of the volume is empty.
+fn unmet(job: &Job) -> String {
+    // Objects may be moved out of the volume's box, and meshes are beside it.
+    let is_volume_alone = job.scene.objects.is_empty() && job.scene.meshes.is_empty();
+    let shot = job.shot().ok().filter(|_| is_volume_alone);
+    match shot.and_then(|shot| OutOfSight::of(&job.scene, job.volume.grid(), &shot.view, shot.lattice)) {
+        Some(OutOfSight::Camera) => "the camera looks past the volume; [camera] says where it is, and --set \
+                                     camera=off shows the whole"
+            .into(),
+        Some(OutOfSight::Near) => {
+            "all of the volume is nearer than camera.near; make it smaller, or leave it out".into()
+        }
+        Some(OutOfSight::Clips(clips)) => {
+            let names: Vec<String> = clips.iter().map(|i| format!("clip[{i}]")).collect();
+            match &names[..] {
+                [name] => {
+                    format!("{name} cuts away all that the camera sees of the volume; turn its normal, or leave it out")
+                }
+                _ => format!("{} together cut away all that the camera sees of the volume", names.join(", ")),
+            }
+        }
+        None => {
+            "no ray meets a value that transfer.nodes show; `drypoint info` tells the range of a volume, `drypoint \
+                 plan --full` the nodes and the camera"
+                .into()
+        }
     }
 }
 

@@ -121,7 +121,7 @@ impl SceneOverrides {
     fn failures(&self, faults: Faults) -> Failures {
         let failure = |fault: &Fault| {
             let flag = match &fault.place {
-                Place::Set(text) => self.flags.iter().find(|flag| *text == format!("{}={}", flag.key, flag.value)),
+                Place::Set(text) => self.flags.iter().find(|flag| **text == *format!("{}={}", flag.key, flag.value)),
                 Place::File { .. } | Place::Chosen => None,
             };
             match flag {

@@ -41,12 +41,24 @@ pub(super) fn no_keys(typed: &str) -> Failure {
         (true, true, false) => ": type is missing",
         (true, true, true) => "",
     };
-    let what = format!("this is no layout{absent}");
+    let unquoted = ["type", "endian"].into_iter().find_map(|key| Some((key, bare_word(typed, key)?)));
+    let what = match unquoted {
+        Some((key, word)) => format!("this is no layout: {key} = {word} needs quotes, as in {key} = {word:?}"),
+        None => format!("this is no layout{absent}"),
+    };
     Failure::new(
         what,
         typed,
         "write --raw 'size = [256, 256, 113], type = \"i16\"', with size and type of these voxels",
     )
+}
+
+/// Returns the word that a key of a layout has without quotes, if it has one.
+fn bare_word<'a>(typed: &'a str, key: &str) -> Option<&'a str> {
+    let (_, value) = typed.split_once(key)?;
+    let value = value.trim_start().strip_prefix('=')?.trim_start();
+    let end = value.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(value.len());
+    Some(&value[..end]).filter(|word| !word.is_empty())
 }
 
 /// Returns the layout of a source, if it has one.

@@ -13,12 +13,13 @@ use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
 use drypoint_scene::tables::{
-    Axis, Background, Halo, LabelKey, NodeColor, Scene, Transfer, TransferKind, VolumeSource, VolumeTable,
+    Axis, Background, Halo, LabelKey, Node, Scene, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use drypoint_scene::transfer::FunctionError;
 use drypoint_scene::volume::labels::LabelNames;
 use drypoint_scene::volume::read::Fault;
 use drypoint_scene::volume::{Volume, read};
+use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
@@ -41,7 +42,7 @@ pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, 
             }
             let remedy = match &error {
                 PhantomError::Memory { .. } => "ask for fewer voxels with volume.phantom.size",
-                PhantomError::Space(_) => "give other numbers as volume.phantom.size or spacing",
+                PhantomError::Space(_) => "give other numbers as volume.phantom.spacing",
                 _ => "`drypoint phantom --list` lists phantoms and parameters",
             };
             Failure::new(error, given.position("volume.phantom"), remedy)
@@ -93,12 +94,10 @@ pub(super) fn meshes(scene: &Scene, failures: &mut Vec<Failure>) -> Vec<Triangle
     meshes
 }
 
-/// Returns the names of the nodes' styles.
+/// Returns the names of the nodes' styles, each once.
 pub(super) fn named(transfer: &Transfer) -> impl Iterator<Item = &str> {
-    transfer.all_nodes().filter_map(|node| match &node.color {
-        NodeColor::Style(name) => Some(name.as_str()),
-        NodeColor::Color(_) => None,
-    })
+    let mut told = BTreeSet::new();
+    transfer.all_nodes().filter_map(Node::style).filter(move |name| told.insert(*name))
 }
 
 /// Returns the failure of a transfer function, at the key that causes it.

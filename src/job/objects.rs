@@ -1,5 +1,6 @@
 //! The objects of a job: their data, selections and looks ([VS-2]).
 
+use super::room::room_for_parts;
 use super::{Job, RenderTarget, is_integer, plan_for, shot_failure};
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
@@ -59,8 +60,8 @@ impl Objects {
             own.push(object.volume.as_ref().and_then(|path| match read::read(path, None) {
                 Ok(volume) => Some(Arc::new(volume)),
                 Err(error) => {
-                    let place = scene.given.position(&format!("object[{i}].volume"));
-                    failures.push(Failure::new(error.what(), place, error.remedy()));
+                    let key = format!("object[{i}].volume");
+                    failures.push(Failure::of_file(&error, scene.given.position(&key)));
                     None
                 }
             }));
@@ -86,6 +87,7 @@ impl Objects {
         });
         let pictures = pictures.collect();
         Failures::check(failures)?;
+        room_for_parts(scene)?;
         // The parts, each as a picture of its own.
         let mut parts = Vec::new();
         for (object, role) in scene.parts() {
@@ -216,8 +218,7 @@ fn selection(
     let at = |key: &str| scene.given.position(&format!("object[{i}].{key}"));
     let no_room = |no_room, key| Failure::new(format!("the selection needs {no_room}"), at(key), "select less");
     if let Some(path) = &object.selection {
-        let volume =
-            read::read(path, None).map_err(|error| Failure::new(error.what(), at("selection"), error.remedy()));
+        let volume = read::read(path, None).map_err(|error| Failure::of_file(&error, at("selection")));
         let selection =
             volume.and_then(|volume| Selection::from_volume(&volume).map_err(|error| no_room(error, "selection")));
         return selection.map_err(|failure| failures.push(failure)).ok();

@@ -4,7 +4,7 @@ use super::Job;
 use crate::Failure;
 use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::plan::Plan;
-use drypoint_scene::tables::{Scene, Table};
+use drypoint_scene::tables::{Role, Scene, Table, Transfer};
 use drypoint_scene::volume::Volume;
 
 /// Checks that the memory budget allows the table of the transfer function.
@@ -24,6 +24,24 @@ pub(super) fn no_room_for_content(volume: &Volume, place: String, no_room: &NoRo
     let [nx, ny, nz] = volume.dims();
     let what = format!("the search for the content of {nx} × {ny} × {nz} voxels needs {no_room}");
     Failure::new(what, place, "read less of the volume with volume.box or volume.stride, or allow more with --memory")
+}
+
+/// Checks that the memory budget allows the scenes of objects' parts, each with a copy of its function.
+pub(super) fn room_for_parts(scene: &Scene) -> Result<(), Failure> {
+    /// Bytes of a part without nodes.
+    const PART: u64 = 1 << 14;
+    /// Bytes of a node: in the part's scene, by its style's name, and in its function.
+    const NODE: u64 = 200;
+    let nodes = |transfer: Option<&Transfer>| transfer.map_or(0, |transfer| transfer.all_nodes().count()) as u64;
+    let of_part = |(object, role): (usize, Role)| {
+        let table = &scene.objects[object];
+        let of_ghost = table.ghost.as_ref().filter(|_| role == Role::Ghost).and_then(|ghost| ghost.transfer.as_ref());
+        PART + NODE * nodes(of_ghost.or(table.transfer.as_ref()).or(scene.transfer.as_ref()))
+    };
+    memory::room(scene.parts().map(of_part).sum()).map_err(|no_room| {
+        let what = format!("the functions of {} objects need {no_room}", scene.objects.len());
+        Failure::new(what, scene.given.position("object"), "write fewer objects, or fewer nodes of [transfer]")
+    })
 }
 
 /// Checks that the memory budget allows the rays and images of a frame with halos.

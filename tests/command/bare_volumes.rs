@@ -165,11 +165,22 @@ fn a_picture_of_nothing_is_told() {
         for space in ["linear", "srgb"] {
             let how = format!("--set picture.background={background:?} --set picture.blend_space={space}");
             let err = nothing(&format!("{how} --set camera.target=[1e6,0,0]"));
-            assert!(
-                err.starts_with("warning: nothing is seen: no ray meets a value that transfer.nodes show; "),
-                "{err}"
-            );
+            assert!(err.starts_with("warning: nothing is seen: the camera looks past the volume; "), "{err}");
             assert_eq!(nothing(&how), "a.png\n");
         }
+    }
+    // Each cause by its name.
+    let plane = |x: f64, normal: i32| format!("{{point=[{x},0,0],normal=[{normal},0,0]}}");
+    for (set, why) in [
+        ("transfer.nodes=[{at=1e6,style=\"wax\",opacity=0}]".into(), "no ray meets a value that transfer.nodes show; "),
+        ("camera.near=1e6".into(), "all of the volume is nearer than camera.near; "),
+        (format!("clip=[{}]", plane(-1.0, 1)), "clip[0] cuts away all that the camera sees of the volume; "),
+        (
+            format!("clip=[{},{}]", plane(4.0, 1), plane(5.0, -1)),
+            "clip[0], clip[1] together cut away all that the camera sees of the volume\n",
+        ),
+    ] {
+        let err = nothing(&format!("--set {set}"));
+        assert!(err.starts_with(&format!("warning: nothing is seen: {why}")), "{set}: {err}");
     }
 }

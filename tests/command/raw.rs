@@ -114,6 +114,11 @@ fn a_layout_without_brackets_is_shown_the_right_form() {
         ("size=8,6,4", "this is no layout: size has no brackets, and type is missing"),
         ("size=8,6,4, type=\"u16\"", "this is no layout: size has no brackets"),
         ("8,6,4", "this is no layout: size is missing"),
+        ("size = [8, 6, 4], type = u16", "this is no layout: type = u16 needs quotes, as in type = \"u16\""),
+        (
+            "size=[8,6,4],type=\"u16\",endian=big",
+            "this is no layout: endian = big needs quotes, as in endian = \"big\"",
+        ),
     ] {
         let form = "write --raw 'size = [256, 256, 113], type = \"i16\"', with size and type of these voxels";
         let expected = format!("error: {what}\n  at: --raw {keys}\n  try: {form}\n");

@@ -1,20 +1,29 @@
 //! Walking a document against the description of its tables, collecting every fault ([SCN-4]).
 
-use super::describe::{Key, Later, Table};
+use super::describe::{Head, Key, Later, Shape, Table};
 use super::fault::{Fault, Problem};
 use super::item::{Entries, Entry, Item, Value};
 use super::out;
 use super::place::{Given, Place};
 use crate::nearest::nearest;
 use std::collections::BTreeSet;
+use std::ops::Bound;
 use std::path::{Path, PathBuf};
+
+/// The most faults of a scene that are told one by one: more than anyone reads.
+const MOST_FAULTS: usize = 100;
 
 /// The state of a walk: where it is, and what it found.
 pub(crate) struct Check {
     file: PathBuf,
     folder: PathBuf,
     path: String,
+    /// The faults that are told: the first [`MOST_FAULTS`].
     faults: Vec<Fault>,
+    /// The number of further faults.
+    untold: usize,
+    /// The keys of all faults.
+    at_fault: BTreeSet<String>,
     given: Given,
     styles: Vec<(String, String, Place)>,
 }
@@ -26,12 +35,20 @@ impl Check {
             folder: file.parent().unwrap_or(Path::new("")).to_owned(),
             path: String::new(),
             faults: Vec::new(),
+            untold: 0,
+            at_fault: BTreeSet::new(),
             given: Given::new(file),
             styles: Vec::new(),
         }
     }
 
-    pub(crate) fn done(self) -> (Given, Vec<Fault>) {
+    /// Ends the walk. The number of faults that are not told is a fault of its own.
+    pub(crate) fn done(mut self) -> (Given, Vec<Fault>) {
+        if self.untold > 0 {
+            let problem = Problem::Further { count: self.untold };
+            // Nowhere is behind every place.
+            self.faults.push(Fault { file: self.file, place: Place::Chosen, key: String::new(), problem });
+        }
         (self.given, self.faults)
     }
 
@@ -52,21 +69,30 @@ impl Check {
 
     /// Walks into a key of a table.
     pub(crate) fn within<T>(&mut self, name: &str, walk: impl FnOnce(&mut Self) -> T) -> T {
+        let outer = self.enter(name);
+        let result = walk(self);
+        self.path = outer;
+        result
+    }
+
+    /// Enters a key of a table and returns the table's own key.
+    fn enter(&mut self, name: &str) -> String {
         let inner = self.key_of(name);
-        self.at(inner, walk)
+        std::mem::replace(&mut self.path, inner)
     }
 
     /// Walks into an item of a list.
     pub(crate) fn within_item<T>(&mut self, i: usize, walk: impl FnOnce(&mut Self) -> T) -> T {
-        let inner = format!("{}[{i}]", self.path);
-        self.at(inner, walk)
-    }
-
-    fn at<T>(&mut self, key: String, walk: impl FnOnce(&mut Self) -> T) -> T {
-        let outer = std::mem::replace(&mut self.path, key);
+        let outer = self.enter_item(i);
         let result = walk(self);
         self.path = outer;
         result
+    }
+
+    /// Enters an item of a list and returns the list's key.
+    fn enter_item(&mut self, i: usize) -> String {
+        let inner = format!("{}[{i}]", self.path);
+        std::mem::replace(&mut self.path, inner)
     }
 
     /// Notes that the scene says the key that the walk is at.
@@ -95,7 +121,10 @@ impl Check {
     pub(crate) fn sound(&self, names: &[&str]) -> bool {
         names.iter().all(|name| {
             let key = self.inner(name);
-            !self.faults.iter().any(|fault| is_within(&fault.key, &key))
+            // Keys in order: those inside a table follow the table's with a point or a bracket.
+            let first = |of: &str| self.at_fault.range::<str, _>((Bound::Included(of), Bound::Unbounded)).next();
+            let is_inside = |start: String| first(&start).is_some_and(|found| found.starts_with(&start));
+            !self.at_fault.contains(&key) && !is_inside(format!("{key}.")) && !is_inside(format!("{key}["))
         })
     }
 
@@ -106,15 +135,55 @@ impl Check {
 
     /// Reports a fault of a key, given from the top.
     pub(crate) fn fault_of(&mut self, key: String, place: &Place, problem: Problem) {
-        self.faults.push(Fault { file: self.file.clone(), place: place.clone(), key, problem });
+        self.fault_by(key, place, || problem);
+    }
+
+    /// Reports a fault that is made only if it is told.
+    fn fault_by(&mut self, key: String, place: &Place, problem: impl FnOnce() -> Problem) {
+        self.at_fault.insert(key.clone());
+        if self.faults.len() < MOST_FAULTS {
+            self.faults.push(Fault { file: self.file.clone(), place: place.clone(), key, problem: problem() });
+        } else {
+            self.untold += 1;
+        }
     }
 
     /// Reports a fault of a key of the table that the walk is at, or of a table in it; its place is the key's, or else
     /// the table's.
     pub(crate) fn fault_in(&mut self, tail: &str, problem: Problem) {
+        let (key, place) = self.inner_place(tail);
+        self.fault_of(key, &place, problem);
+    }
+
+    /// Reports a name of something that is not there, by a key of the table that the walk is at. `known` are the names
+    /// of what is there.
+    pub(crate) fn unknown_in(&mut self, tail: &str, what: &str, name: &str, known: &[&str]) {
+        let (key, place) = self.inner_place(tail);
+        self.unknown_of(key, &place, what, name, known);
+    }
+
+    /// Reports a name of something that is not there. `known` are the names of what is there.
+    pub(crate) fn unknown_of(&mut self, key: String, place: &Place, what: &str, name: &str, known: &[&str]) {
+        self.fault_by(key, place, || Problem::Reference {
+            what: what.into(),
+            name: name.into(),
+            nearest: nearest(name, known.iter().copied()).map(Into::into),
+            known: known.iter().map(|name| (*name).into()).collect(),
+        });
+    }
+
+    /// A key of the table that the walk is at, or of a table in it, from the top, and its place or else the table's.
+    fn inner_place(&self, tail: &str) -> (String, Place) {
         let key = self.inner(tail);
         let place = self.given.place(&key).or_else(|| self.given.place(&self.path)).cloned();
-        self.fault_of(key, &place.unwrap_or(Place::File { line: 1, column: 1 }), problem);
+        (key, place.unwrap_or(Place::File { line: 1, column: 1 }))
+    }
+
+    /// Reports that the list or table that the walk is at has too many entries. `first` is the first of those that are
+    /// too many.
+    pub(crate) fn too_many<T>(&mut self, first: &Place, [count, most]: [usize; 2]) -> Option<T> {
+        self.fault(first, Problem::TooMany { count, most });
+        None
     }
 
     /// Reports a fault of an item, or of a key in it, of the list that the walk is at.
@@ -142,11 +211,15 @@ impl Check {
     /// Reports a value that may not stand where it stands, with the name that was probably meant. In a list the fault is
     /// that of the first number that is not finite, if there is one.
     pub(crate) fn wrong_name<T>(&mut self, item: &Item, expected: String, nearest: Option<String>) -> Option<T> {
+        self.wrong_value(item, expected, nearest);
+        None
+    }
+
+    fn wrong_value(&mut self, item: &Item, expected: String, nearest: Option<String>) {
         if let Some((i, number)) = item.list().into_iter().flatten().enumerate().find(|(_, item)| !item.is_finite()) {
-            return self.within_item(i, |check| check.wrong_name(number, "a finite number".into(), None));
+            return self.within_item(i, |check| check.wrong_value(number, "a finite number".into(), None));
         }
         self.fault(&item.place, Problem::Value { found: item.found(), expected, nearest });
-        None
     }
 
     /// Reports a part of the format that this version does not have.
@@ -180,85 +253,100 @@ impl Check {
 
     /// Reads a table like `table`, with the values of a preset for keys that the item does not have.
     pub(crate) fn table_over<S>(&mut self, table: &Table<S>, item: &Item, supplied: Option<S>) -> Option<S> {
+        let head = table.head();
         let Value::Table(entries) = &item.value else {
-            return self.wrong(item, table_expected(table));
+            return self.wrong(item, head.expected());
         };
         let is_supplied = supplied.is_some();
         let mut result = supplied.unwrap_or_else(table.empty);
-        let dropped = self.alternatives(table, entries);
-        self.unknown_keys(table, entries);
+        let dropped = self.alternatives(&head, entries);
+        let others = self.others(&head, entries);
         for key in table.keys.iter().filter(|key| !dropped.contains(key.name)) {
+            // A preset's table of which a key is overridden is still the preset's.
+            let is_over = |result: &S| key.field.write(result) != key.field.write(&(table.empty)());
             match entries.get(key.name) {
                 Some(entry) if entry.item.value == Value::Off => {
                     if key.required {
-                        self.missing(key, &item.place);
+                        self.missing(key.name, key.field.shape(), &item.place);
                     }
-                    if key.field.write(&result) != key.field.write(&(table.empty)()) {
+                    if is_over(&result) {
                         result = without(table, key, &result);
                     }
                 }
                 Some(entry) if entry.item.takes_away() && key.field.write(&result).is_none() => {}
-                Some(entry) => self.within(key.name, |check| {
-                    // A preset's table of which a key is overridden is still the preset's.
-                    let is_over = || key.field.write(&result) != key.field.write(&(table.empty)());
-                    if !(entry.item.is_way && is_over()) {
-                        check.note(&entry.name);
+                Some(entry) => {
+                    let outer = self.enter(key.name);
+                    if !(entry.item.is_way && is_over(&result)) {
+                        self.note(&entry.name);
                     }
-                    key.field.read(&entry.item, &mut result, check);
-                }),
-                None if key.required && !is_supplied => self.missing(key, &item.place),
+                    key.field.read(&entry.item, &mut result, self);
+                    self.path = outer;
+                }
+                None if key.required && !is_supplied => self.missing(key.name, key.field.shape(), &item.place),
                 None => {}
             }
         }
         if let Some(open) = table.open {
-            for (name, entry) in others(table, entries) {
-                self.within(name, |check| {
-                    check.note(&entry.name);
-                    open.read(name, &entry.item, &mut result, check);
-                });
+            for (name, entry) in others {
+                let outer = self.enter(name);
+                self.note(&entry.name);
+                open.read(name, &entry.item, &mut result, self);
+                self.path = outer;
             }
         }
         (table.check)(&result, self);
         Some(result)
     }
 
-    fn missing<S>(&mut self, key: &Key<S>, place: &Place) {
-        let shape = key.field.shape();
+    /// Reports a key that must be there and is not.
+    fn missing(&mut self, name: &str, shape: &dyn Shape, place: &Place) {
         let expected = match shape.section() {
-            Some(_) => format!("[{}], {}", key.name, shape.expected()),
-            None => format!("{} = {}", key.name, shape.expected()),
+            Some(_) => format!("[{name}], {}", shape.expected()),
+            None => format!("{name} = {}", shape.expected()),
         };
-        let name = self.key_of(key.name);
-        self.fault_of(name, place, Problem::Missing { expected });
+        let key = self.key_of(name);
+        self.fault_of(key, place, Problem::Missing { expected });
     }
 
-    fn unknown_keys<S>(&mut self, table: &Table<S>, entries: &Entries) {
-        if table.open.is_some() {
-            return;
+    /// The entries of a table that are none of its keys, if the user may name some. All others are faults.
+    fn others<'a>(&mut self, head: &Head, entries: &'a Entries) -> Vec<(&'a str, &'a Entry)> {
+        let is_other = |name: &str, entry: &Entry| !entry.item.takes_away() && !head.names.contains(&name);
+        let others = entries.iter().map(|(name, entry)| (name.as_str(), entry));
+        let mut others: Vec<_> = others.filter(|(name, entry)| is_other(name, entry)).collect();
+        let Some(most) = head.most_others else {
+            others.into_iter().for_each(|(name, entry)| self.unknown_key(head, name, entry));
+            return Vec::new();
+        };
+        if others.len() > most {
+            let count = others.len();
+            others.sort_by_key(|(_, entry)| entry.name.in_file());
+            return self.too_many(&others[most].1.name, [count, most]).unwrap_or_default();
         }
-        for (name, entry) in others(table, entries) {
-            if table.later.iter().any(|later| later.name == name) {
-                let what = match (self.path.is_empty(), &entry.item.value) {
-                    (true, Value::Table(_)) => format!("[{name}]"),
-                    (true, Value::List(_)) => format!("[[{name}]]"),
-                    _ => self.key_of(name),
-                };
-                let key = self.key_of(name);
-                self.fault_of(key, &entry.name, Problem::NotBuilt { what });
-            } else {
-                let problem = unknown_key(table.title, name, table.keys.iter().map(|key| key.name), table.later);
-                let key = self.key_of(name);
-                self.fault_of(key, &entry.name, problem);
-            }
+        others
+    }
+
+    /// Reports a key that a table does not have.
+    fn unknown_key(&mut self, head: &Head, name: &str, entry: &Entry) {
+        let key = self.key_of(name);
+        if head.later.iter().any(|later| later.name == name) {
+            let what = match (self.path.is_empty(), &entry.item.value) {
+                (true, Value::Table(_)) => format!("[{name}]"),
+                (true, Value::List(_)) => format!("[[{name}]]"),
+                _ => key.clone(),
+            };
+            self.fault_of(key, &entry.name, Problem::NotBuilt { what });
+        } else {
+            let known = head.names.iter().copied();
+            self.fault_by(key, &entry.name, || unknown_key(head.title, name, known, head.later));
         }
     }
 
     /// The keys that give way to others. Of two that stand in each other's place the command line's stays.
-    fn alternatives<S>(&mut self, table: &Table<S>, entries: &Entries) -> BTreeSet<&'static str> {
+    fn alternatives(&mut self, head: &Head, entries: &Entries) -> BTreeSet<&'static str> {
         let mut dropped = BTreeSet::new();
         let get = |name: &str| entries.get(name).filter(|entry| !entry.item.takes_away());
         let set = |name: &str| get(name).is_some_and(|entry| entry.name.line().is_none());
-        for instead in table.instead {
+        for instead in head.instead {
             let Some(one) = get(instead.one) else { continue };
             let others: Vec<&str> = instead.others.iter().copied().filter(|other| get(other).is_some()).collect();
             if others.is_empty() {
@@ -271,23 +359,20 @@ impl Check {
                 dropped.insert(instead.one);
             } else {
                 let key = self.key_of(instead.one);
-                // Others that exclude each other are alternatives, too; else they go together.
-                let is_one_of_all = table.instead.iter().any(|further| instead.others.contains(&further.one));
-                let rest = if is_one_of_all { others.join(" or ") } else { instead.others.join(" with ") };
-                let problem = Problem::Contradiction {
-                    what: format!("{} has both {} and {}", table.title, instead.one, others.join(", ")),
-                    remedy: format!("keep {} or {rest}", instead.one),
+                let what = format!("{} has both {} and {}", head.title, instead.one, others.join(" and "));
+                // Of keys that exclude each other, too, one may stay; else all others may.
+                let exclude = |a: &str, b: &str| head.instead.iter().any(|i| i.one == a && i.others.contains(&b));
+                let pairs = || others.iter().enumerate().flat_map(|(i, a)| others[i + 1..].iter().map(move |b| (a, b)));
+                let remedy = if pairs().all(|(a, b)| exclude(a, b)) {
+                    format!("keep {} or {}", instead.one, others.join(" or "))
+                } else {
+                    format!("keep {}, or {}", instead.one, others.join(" and "))
                 };
-                self.fault_of(key, &one.name, problem);
+                self.fault_of(key, &one.name, Problem::Contradiction { what, remedy });
             }
         }
         dropped
     }
-}
-
-/// Returns the entries that are none of the table's keys.
-fn others<'a, S>(table: &Table<S>, entries: &'a Entries) -> impl Iterator<Item = (&'a String, &'a Entry)> {
-    entries.iter().filter(|(name, entry)| !entry.item.takes_away() && table.keys.iter().all(|key| key.name != *name))
 }
 
 /// Returns the table with one key at its default.
@@ -300,15 +385,6 @@ fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
         open.copy(from, &mut rest);
     }
     rest
-}
-
-/// Returns the words for a table where one is expected.
-pub(crate) fn table_expected<S>(table: &Table<S>) -> String {
-    let names: Vec<&str> = table.keys.iter().map(|key| key.name).collect();
-    match names[..] {
-        [] => "a table".into(),
-        _ => format!("a table with the keys {}", names.join(", ")),
-    }
 }
 
 /// The fault of a key that a table does not know, with the nearest that it does.
@@ -324,9 +400,4 @@ pub(crate) fn unknown_key<'a>(
         nearest: nearest(name, known.clone().chain(later.iter().map(|l| l.name))).map(Into::into),
         known: known.map(Into::into).collect(),
     }
-}
-
-/// Whether a key is another one or lies in it.
-fn is_within(key: &str, outer: &str) -> bool {
-    key.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }

@@ -33,6 +33,40 @@ impl<S> Table<S> {
     }
 }
 
+/// A [`Table`] without its struct, as far as a walk asks for it. Code over it is compiled once for all tables.
+pub(crate) struct Head {
+    pub(crate) title: &'static str,
+    /// The names of the keys.
+    pub(crate) names: Vec<&'static str>,
+    /// The most keys that the user may name; none: none are allowed.
+    pub(crate) most_others: Option<usize>,
+    pub(crate) later: &'static [Later],
+    pub(crate) instead: &'static [Instead],
+}
+
+impl Head {
+    /// Returns the words for a table where one is expected.
+    pub(crate) fn expected(&self) -> String {
+        match self.names[..] {
+            [] => "a table".into(),
+            _ => format!("a table with the keys {}", self.names.join(", ")),
+        }
+    }
+}
+
+impl<S> Table<S> {
+    /// The description without the struct.
+    pub(crate) fn head(&self) -> Head {
+        Head {
+            title: self.title,
+            names: self.keys.iter().map(|key| key.name).collect(),
+            most_others: self.open.map(Named::most),
+            later: self.later,
+            instead: self.instead,
+        }
+    }
+}
+
 /// One key of a table.
 pub(crate) struct Key<S: 'static> {
     /// In snake_case.
@@ -111,6 +145,11 @@ pub(crate) trait Shape: Sync {
 
     /// The table that the value is, if it is one.
     fn section(&self) -> Option<Section> {
+        None
+    }
+
+    /// The most items, if the value is a list of any length.
+    fn most_items(&self) -> Option<usize> {
         None
     }
 
@@ -195,6 +234,8 @@ pub(crate) trait Named<S>: Sync {
     fn shape(&self) -> &dyn Shape;
     /// Returns the documentation of such a name.
     fn doc(&self) -> &'static str;
+    /// Returns the most names that a table can have.
+    fn most(&self) -> usize;
 }
 
 /// Values with the names that the user gave them.
@@ -204,6 +245,8 @@ pub(crate) type NamedValues<K> = Vec<(String, <K as Kind>::Of)>;
 pub(crate) struct Names<S, K: Kind> {
     pub(crate) kind: K,
     pub(crate) doc: &'static str,
+    /// The most names.
+    pub(crate) most: usize,
     pub(crate) list: fn(&S) -> NamedValues<K>,
     pub(crate) add: fn(&mut S, String, K::Of),
 }
@@ -230,6 +273,10 @@ impl<S, K: Kind> Named<S> for Names<S, K> {
     fn doc(&self) -> &'static str {
         self.doc
     }
+
+    fn most(&self) -> usize {
+        self.most
+    }
 }
 
 /// A [`Table`] without its struct: what schema and documentation read.
@@ -237,8 +284,16 @@ pub(crate) struct Section {
     pub(crate) title: &'static str,
     pub(crate) doc: &'static str,
     pub(crate) keys: Vec<SectionKey>,
-    pub(crate) open: Option<(&'static str, &'static dyn Shape)>,
+    pub(crate) open: Option<OpenKeys>,
     pub(crate) later: &'static [Later],
+}
+
+/// The keys of a [`Section`] that the user names.
+pub(crate) struct OpenKeys {
+    pub(crate) doc: &'static str,
+    pub(crate) shape: &'static dyn Shape,
+    /// The most of them.
+    pub(crate) most: usize,
 }
 
 /// A [`Key`] without its struct.
@@ -272,7 +327,7 @@ impl<S> Table<S> {
             title: self.title,
             doc: self.doc,
             keys: self.keys.iter().map(key).collect(),
-            open: self.open.map(|open| (open.doc(), open.shape())),
+            open: self.open.map(|open| OpenKeys { doc: open.doc(), shape: open.shape(), most: open.most() }),
             later: self.later,
         }
     }

@@ -55,6 +55,13 @@ pub enum Problem {
         /// The known name that was probably meant.
         nearest: Option<String>,
     },
+    /// A list with more items, or a table with more names, than it may have.
+    TooMany {
+        /// The number of entries.
+        count: usize,
+        /// The most that may stand there.
+        most: usize,
+    },
     /// A name of something that is not there.
     Reference {
         /// Kind of thing that it should name, such as `style`.
@@ -85,6 +92,11 @@ pub enum Problem {
         /// Folders that were searched, or advice.
         remedy: String,
     },
+    /// Faults that are not told one by one.
+    Further {
+        /// Their number.
+        count: usize,
+    },
     /// An override that leads nowhere.
     Override {
         /// The mistake, in words.
@@ -114,10 +126,13 @@ impl Fault {
             Problem::UnknownKey { table, name, .. } => format!("{table} has no key {name:?}"),
             Problem::NotBuilt { what } => format!("{what} is not built yet"),
             Problem::Value { found, .. } => format!("{key} cannot be {found}"),
+            Problem::TooMany { count, most } => format!("{key} has {count} entries, and {most} are the most"),
             Problem::Reference { what, name, .. } => format!("there is no {what} {name:?}"),
             Problem::Missing { .. } => format!("{key} is missing"),
             Problem::Contradiction { what, .. } | Problem::Override { what, .. } => what.clone(),
             Problem::NoFile { path, .. } => format!("{} is not there", path.display()),
+            Problem::Further { count: 1 } => "there is one more fault".into(),
+            Problem::Further { count } => format!("there are {count} more faults"),
         })
     }
 
@@ -144,6 +159,8 @@ impl Fault {
                 Some(name) if *expected != format!("{name:?}") => format!("write {name:?}; expected is {expected}"),
                 _ => format!("write {expected}"),
             },
+            Problem::TooMany { most, .. } => format!("write at most {most}"),
+            Problem::Further { .. } => "correct those above first".into(),
             Problem::Reference { what, nearest, known, .. } => {
                 let all = if known.is_empty() {
                     format!("there is no {what} at all")

@@ -110,7 +110,7 @@ mod tests {
     proptest! {
         #[test]
         fn numbers_and_texts_read_back_to_the_same_bits(bits: u64, text in "\\PC*|[\\x00-\\x7f\u{80}-\u{a0}]*") {
-            let place = Place::Set(String::new());
+            let place = Place::Set("".into());
             let x = f64::from_bits(bits);
             if x.is_finite() {
                 let back = Item::from_override(&number(x), &place).number().unwrap();

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Place of a key or a value.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -14,8 +15,8 @@ pub enum Place {
         /// Column.
         column: usize,
     },
-    /// On the command line: what follows `--set`.
-    Set(String),
+    /// On the command line: what follows `--set`. All values of an override share it.
+    Set(Arc<str>),
     /// Nowhere: it was found in the volume that the scene is for.
     Chosen,
 }
@@ -23,8 +24,13 @@ pub enum Place {
 impl Place {
     /// The line of the scene file; none for what the command line said.
     pub fn line(&self) -> Option<usize> {
+        self.in_file().map(|[line, _]| line)
+    }
+
+    /// The line and the column in the scene file; none for what the command line said.
+    pub(crate) fn in_file(&self) -> Option<[usize; 2]> {
         match self {
-            Self::File { line, .. } => Some(*line),
+            Self::File { line, column } => Some([*line, *column]),
             Self::Set(_) | Self::Chosen => None,
         }
     }
@@ -40,17 +46,32 @@ impl fmt::Display for Place {
     }
 }
 
-/// Turns byte offsets of a text into places.
+/// Turns byte offsets of a text into places. A place takes equally long in lines of any length.
 #[derive(Debug)]
 pub(crate) struct Lines<'a> {
     text: &'a str,
     starts: Vec<usize>,
+    /// The characters before each block of bytes.
+    before: Vec<usize>,
 }
+
+/// Bytes of a block.
+const BLOCK: usize = 256;
 
 impl<'a> Lines<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
         let starts = std::iter::once(0).chain(text.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        Self { text, starts }
+        let mut before = vec![0];
+        for block in text.as_bytes().chunks(BLOCK) {
+            before.push(before[before.len() - 1] + characters(block));
+        }
+        Self { text, starts, before }
+    }
+
+    /// The characters that begin before a byte of the text.
+    fn characters_before(&self, byte: usize) -> usize {
+        let block = byte / BLOCK;
+        self.before[block] + characters(&self.text.as_bytes()[block * BLOCK..byte])
     }
 
     /// The place of a byte; what lies past the end or inside a character counts as just before it.
@@ -59,8 +80,13 @@ impl<'a> Lines<'a> {
         let line = self.starts.partition_point(|&start| start <= byte);
         // Never 0: the first line starts at byte 0, which is at most `byte`.
         let start = self.starts[line - 1];
-        Place::File { line, column: self.text[start..byte].chars().count() + 1 }
+        Place::File { line, column: self.characters_before(byte) - self.characters_before(start) + 1 }
     }
+}
+
+/// The characters that begin in a part of a text: bytes that do not continue one.
+fn characters(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0b1100_0000 != 0b1000_0000).count()
 }
 
 /// The keys that a scene said itself, with their places. It is not part of what the scene means: two scenes that
@@ -68,7 +94,10 @@ impl<'a> Lines<'a> {
 #[derive(Clone, Debug, Default)]
 pub struct Given {
     file: PathBuf,
-    keys: BTreeMap<String, Place>,
+    /// All keys, shared by the scenes of parts.
+    keys: Arc<BTreeMap<String, Place>>,
+    /// Tables and the places that their keys take.
+    moved: Vec<(String, &'static str)>,
     chosen: BTreeSet<String>,
 }
 
@@ -80,18 +109,22 @@ impl PartialEq for Given {
 
 impl Given {
     pub(crate) fn new(file: &Path) -> Self {
-        Self { file: file.to_owned(), keys: BTreeMap::new(), chosen: BTreeSet::new() }
+        Self { file: file.to_owned(), ..Self::default() }
     }
 
     /// Whether the scene said a key, such as `camera.fov` or `transfer.nodes[2].style`, or has a table, such as
     /// `contours`.
     pub fn contains(&self, key: &str) -> bool {
-        self.keys.contains_key(key)
+        self.place(key).is_some()
     }
 
     /// Place at which the scene said a key.
     pub fn place(&self, key: &str) -> Option<&Place> {
-        self.keys.get(key)
+        let moved = self.moved.iter().find_map(|(table, place)| Some((table, inside(key, place)?)));
+        match moved {
+            Some((table, rest)) => self.keys.get(&format!("{table}{rest}")),
+            None => self.keys.get(key),
+        }
     }
 
     /// The line of the scene file that said it; none for a default and for what the command line said.
@@ -99,24 +132,10 @@ impl Given {
         self.place(key).and_then(Place::line)
     }
 
-    /// Every key and table, in alphabetical order.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, &Place)> {
-        self.keys.iter().map(|(key, place)| (key.as_str(), place))
-    }
-
     /// Returns the keys with those of some tables in the place of others: each pair is a table and the place that its keys take.
     /// Keys that stood there are left out.
-    pub(crate) fn with_tables(&self, tables: &[(String, &str)]) -> Self {
-        let is_in = |key: &str, table: &str| {
-            key.strip_prefix(table).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
-        let mut keys = self.keys.clone();
-        keys.retain(|key, _| tables.iter().all(|(_, place)| !is_in(key, place)));
-        for (table, place) in tables {
-            let inner = self.keys.iter().filter(|(key, _)| is_in(key, table));
-            keys.extend(inner.map(|(key, at)| (format!("{place}{}", &key[table.len()..]), at.clone())));
-        }
-        Self { keys, ..self.clone() }
+    pub(crate) fn with_tables(&self, moved: Vec<(String, &'static str)>) -> Self {
+        Self { moved, ..self.clone() }
     }
 
     /// Place of a key as messages write it: file, line and column as far as they are known, and the key.
@@ -127,7 +146,7 @@ impl Given {
     /// Forgets what the file said, for a scene that nobody wrote. What the command line said stays. Of `chosen`, keys
     /// and tables that are not as by default, [`Given::is_chosen`] knows.
     pub fn keep_overrides(&mut self, chosen: impl IntoIterator<Item = String>) {
-        self.keys.retain(|_, place| matches!(place, Place::Set(_)));
+        Arc::make_mut(&mut self.keys).retain(|_, place| matches!(place, Place::Set(_)));
         self.chosen.extend(chosen);
     }
 
@@ -137,12 +156,17 @@ impl Given {
     }
 
     pub(crate) fn insert(&mut self, key: String, place: Place) {
-        self.keys.insert(key, place);
+        Arc::make_mut(&mut self.keys).insert(key, place);
     }
 
     pub(crate) fn remove(&mut self, key: &str) {
-        self.keys.remove(key);
+        Arc::make_mut(&mut self.keys).remove(key);
     }
+}
+
+/// The rest of a key that is a table's or lies in the table; none for any other key.
+fn inside<'a>(key: &'a str, table: &str) -> Option<&'a str> {
+    key.strip_prefix(table).filter(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }
 
 /// A place and a key in one line: the second of an error.
@@ -180,6 +204,34 @@ mod tests {
         assert_eq!(at(18), (3, 1));
         assert_eq!(at(1000), (3, 1));
         assert_eq!(Lines::new("").place(0), Place::File { line: 1, column: 1 });
+    }
+
+    /// Columns of one line of 10⁷ characters, which takes hours if each is counted from the line's start.
+    #[test]
+    fn a_long_line_is_counted_once() {
+        let text = "µ=\u{1F58B}, ".repeat(2_000_000);
+        let lines = Lines::new(&text);
+        let each = text.len() / 2_000_000;
+        for i in (0..2_000_000).step_by(7) {
+            assert_eq!(lines.place(i * each), Place::File { line: 1, column: 5 * i + 1 });
+        }
+        let short = &text[..20 * each];
+        for (i, (byte, _)) in short.char_indices().enumerate() {
+            assert_eq!(lines.place(byte), Place::File { line: 1, column: i + 1 });
+        }
+    }
+
+    #[test]
+    fn tables_of_a_part_take_the_places_of_others() {
+        let mut given = Given::default();
+        let at = |line| Place::File { line, column: 1 };
+        for (line, key) in ["a", "a.x", "a.y", "b[0].a", "b[0].a.x", "ab"].into_iter().enumerate() {
+            given.insert(key.into(), at(line));
+        }
+        let part = given.with_tables(vec![("b[0].a".into(), "a")]);
+        let line = |key| part.line(key);
+        assert_eq!(["a", "a.x", "a.y", "ab", "b[0].a.x"].map(line), [Some(3), Some(4), None, Some(5), Some(4)]);
+        assert_eq!((given.line("a.y"), part.contains("a.y")), (Some(2), false));
     }
 
     #[test]

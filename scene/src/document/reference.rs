@@ -21,8 +21,9 @@ fn write(page: &mut String, path: &str, section: &Section) {
     page.push_str(&format!("\n## {title}\n\n{}\n\n", escaped(section.doc)));
     page.push_str("| key | value | default | what it does | can call for | rule |\n|---|---|---|---|---|---|\n");
     section.keys.iter().for_each(|key| page.push_str(&row(path, key)));
-    if let Some((doc, shape)) = &section.open {
-        page.push_str(&format!("| *any name* | {} | | {} | | |\n", escaped(&shape.expected()), escaped(doc)));
+    if let Some(open) = &section.open {
+        let (value, doc) = (escaped(&open.shape.expected()), escaped(open.doc));
+        page.push_str(&format!("| *any name*, at most {} | {value} | | {doc} | | |\n", open.most));
     }
     if !section.later.is_empty() {
         let name = |later: &Later| format!("`{}` ({})", later.name, rule(later.tag));
@@ -52,8 +53,11 @@ fn row(path: &str, key: &SectionKey) -> String {
         options.iter().map(|(name, doc)| format!("`{name:?}`: {}", escaped(doc))).collect::<Vec<_>>().join("<br>")
     } else if let Some(table) = key.shape.section().filter(|table| is_of_the_top(path, table)) {
         format!("as `{}`", table.title)
-    } else if key.shape.section().is_some() || key.shape.item_section().is_some() {
+    } else if key.shape.section().is_some() {
         "below".into()
+    } else if key.shape.item_section().is_some() {
+        let most = key.shape.most_items().map(|most| format!("at most {most}, ")).unwrap_or_default();
+        format!("{most}below")
     } else {
         escaped(&key.shape.expected())
     };

@@ -18,7 +18,7 @@ pub(crate) fn table(section: &Section) -> Value {
     let required: Vec<&str> = section.keys.iter().filter(|key| key.required).map(|key| key.name).collect();
     let others = match &section.open {
         None => json!(false),
-        Some((doc, shape)) => with(shape.schema(), "description", json!(doc)),
+        Some(open) => with(open.shape.schema(), "description", json!(open.doc)),
     };
     let mut schema = json!({
         "type": "object",
@@ -26,6 +26,9 @@ pub(crate) fn table(section: &Section) -> Value {
         "properties": properties,
         "additionalProperties": others,
     });
+    if let Some(open) = &section.open {
+        schema["maxProperties"] = json!(section.keys.len() + open.most);
+    }
     if !required.is_empty() {
         schema["required"] = json!(required);
     }

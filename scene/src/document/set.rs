@@ -50,7 +50,7 @@ impl Overrides {
     /// Changes a document; what leads nowhere is a fault.
     pub(crate) fn apply<S>(&self, root: &'static Table<S>, document: &mut Item, check: &mut Check) {
         for (key, text) in &self.0 {
-            let place = Place::Set(format!("{key}={text}"));
+            let place = Place::Set(format!("{key}={text}").into());
             let applied = steps(key).and_then(|steps| {
                 if text == "off" {
                     is_known(root.section(), &steps)?;

@@ -5,7 +5,7 @@ use crate::document::out;
 use crate::document::{Place, Problem};
 use crate::nearest::nearest;
 use crate::tables::styles::THEMES;
-use crate::tables::{Axis, Background, Over, Scene, StyleSource, VolumeSource};
+use crate::tables::{Axis, Background, Over, Scene, StyleSource, Transfer, VolumeSource};
 use std::path::{Path, PathBuf};
 
 /// The variable that lists folders of volumes.
@@ -25,24 +25,8 @@ pub fn data_folders() -> Vec<PathBuf> {
 
 /// Looks for every file and folder that the scene names, and says which are not there.
 pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
-    let volume = &mut scene.volume;
-    if let VolumeSource::File { path, .. } = &mut volume.source {
-        must_be_found(path, "volume.file", check, folders);
-    }
-    for (path, key) in [(&mut volume.labels, "volume.labels"), (&mut volume.label_names, "volume.label_names")] {
-        if let Some(path) = path {
-            must_be_found(path, key, check, folders);
-        }
-    }
-    if let Some(Over::Two(axes)) = scene.transfer.as_mut().map(|transfer| &mut transfer.over) {
-        for (i, axis) in axes.iter_mut().enumerate() {
-            if let Axis::Volume(path) = axis {
-                must_be_found(path, &format!("transfer.over[{i}].volume"), check, folders);
-            }
-        }
-    }
-    for (i, mesh) in scene.meshes.iter_mut().enumerate() {
-        must_be_found(&mut mesh.file, &format!("mesh[{i}].file"), check, folders);
+    for (path, key) in data(scene) {
+        must_be_found(path, &key, check, folders);
     }
     if let Background::Picture(path) = &scene.picture.background {
         must_exist(path, "picture.background", check);
@@ -61,6 +45,43 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
         let problem = Problem::Reference { what: "theme or folder".into(), name, nearest, known };
         check.fault_of("styles.theme".into(), &place, problem);
     }
+}
+
+/// Every file of data that the scene names, with its key.
+fn data(scene: &mut Scene) -> Vec<(&mut PathBuf, String)> {
+    let mut all = Vec::new();
+    let volume = &mut scene.volume;
+    if let VolumeSource::File { path, .. } = &mut volume.source {
+        all.push((path, "volume.file".into()));
+    }
+    all.extend(volume.labels.as_mut().map(|path| (path, "volume.labels".into())));
+    all.extend(volume.label_names.as_mut().map(|path| (path, "volume.label_names".into())));
+    all.extend(of_function(scene.transfer.as_mut(), "transfer".into()));
+    for (i, object) in scene.objects.iter_mut().enumerate() {
+        let key = |name: &str| format!("object[{i}].{name}");
+        all.extend(object.volume.as_mut().map(|path| (path, key("volume"))));
+        all.extend(object.labels.as_mut().map(|path| (path, key("labels"))));
+        all.extend(object.label_names.as_mut().map(|path| (path, key("label_names"))));
+        all.extend(object.selection.as_mut().map(|path| (path, key("selection"))));
+        all.extend(of_function(object.transfer.as_mut(), key("transfer")));
+        let ghost = object.ghost.as_mut().and_then(|ghost| ghost.transfer.as_mut());
+        all.extend(of_function(ghost, key("ghost.transfer")));
+    }
+    let meshes = scene.meshes.iter_mut().enumerate();
+    all.extend(meshes.map(|(i, mesh)| (&mut mesh.file, format!("mesh[{i}].file"))));
+    all
+}
+
+/// The volumes whose values a transfer function is over, with their keys. `table` is the function's own.
+fn of_function(transfer: Option<&mut Transfer>, table: String) -> impl Iterator<Item = (&mut PathBuf, String)> {
+    let axes = match transfer.map(|transfer| &mut transfer.over) {
+        Some(Over::Two(axes)) => axes.as_mut_slice(),
+        Some(Over::Value) | None => &mut [],
+    };
+    axes.iter_mut().enumerate().filter_map(move |(i, axis)| match axis {
+        Axis::Volume(path) => Some((path, format!("{table}.over[{i}].volume"))),
+        _ => None,
+    })
 }
 
 /// The place of a key that the scene says and that nothing is wrong with so far.

@@ -112,8 +112,16 @@ fn load_over(path: &Path, volume: Option<&Path>, overrides: &Overrides) -> Resul
     finish(scene, check)
 }
 
+/// The most bytes of a scene's text. A list of 100000 nodes has about 6 MiB.
+const LONGEST_TEXT: usize = 1 << 24;
+
 /// Walks a text. The scene is whole only if the walk found no fault; until then it holds what passed.
 fn read(text: &str, volume: Option<&Path>, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
+    if text.len() > LONGEST_TEXT {
+        let reason = format!("it has {} bytes, and a scene has at most {LONGEST_TEXT}", text.len());
+        check.fault(&Place::File { line: 1, column: 1 }, Problem::Unreadable { reason });
+        return None;
+    }
     let mut document = match Item::document(text) {
         Ok(document) => document,
         Err(faults) => {

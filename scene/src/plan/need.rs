@@ -258,8 +258,10 @@ impl fmt::Display for Plan {
             .iter()
             .map(|p| [p.effect.clone(), p.pass.name().into(), p.pass.adds().into(), because(&p.key, &p.place)]);
         let rows: Vec<[String; 4]> = std::iter::once(head).chain(needs).chain(passes).collect();
+        // Longer names, which a scene may give to objects, stand out of their columns.
+        const WIDEST: usize = 200;
         let width: [usize; 4] =
-            std::array::from_fn(|i| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0));
+            std::array::from_fn(|i| rows.iter().map(|row| row[i].chars().count().min(WIDEST)).max().unwrap_or(0));
         for [effect, needs, adds, because] in &rows {
             let [a, b, c, _] = width;
             writeln!(f, "{effect:a$}  {needs:b$}  {adds:c$}  {because}")?;

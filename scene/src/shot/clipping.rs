@@ -98,7 +98,7 @@ impl Clipping {
 }
 
 /// The planes of a table: one, or the six of a box, whose normals point outwards.
-fn planes(clip: &Clip, grid: &Grid) -> Vec<ClipPlane> {
+pub(super) fn planes(clip: &Clip, grid: &Grid) -> Vec<ClipPlane> {
     let plane = |point, normal| match clip.space {
         ClipSpace::World => ClipPlane::in_world(point, normal, grid),
         ClipSpace::Index => ClipPlane::in_index(point, normal, grid),

@@ -11,6 +11,7 @@ mod lattice;
 mod material;
 mod mesh;
 mod opaque_surface;
+mod out_of_sight;
 mod query;
 mod reconstruction;
 
@@ -34,6 +35,7 @@ pub use material::{
 };
 pub use mesh::MeshParams;
 pub use opaque_surface::OpaqueSurface;
+pub use out_of_sight::OutOfSight;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
 

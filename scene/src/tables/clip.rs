@@ -8,7 +8,7 @@ use crate::document::declare::{choices, keys};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Colors, ListOf, Numbers, Rule};
+use crate::document::kind::{Bounds, Colors, FEW, ListOf, Numbers, Rule};
 use crate::document::out::Out;
 use glam::DVec3;
 use serde_json::{Value as Json, json};
@@ -94,7 +94,7 @@ pub(crate) static TABLE: Table<Clip> = Table {
             /// The space of `point`, `normal` and `box`. In index space the planes of a box follow the axes of the grid.
             space: key("RAY-8", ClipSpace::KIND);
             /// The things that are cut.
-            applies: key("RAY-8", ListOf { what: "a list of names", each: PartNames },
+            applies: key("RAY-8", ListOf { what: "a list of names", most: FEW, each: PartNames },
                 |c| (!c.applies.is_empty()).then(|| c.applies.clone()),
                 |c, v| c.applies = v).absent("everything");
             /// Colour that a cut shows, unlit. Its own opacity multiplies that of the sample.

@@ -4,7 +4,7 @@ use crate::document::check::Check;
 use crate::document::declare::keys;
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf};
+use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, Numbers, Rule, TableOf};
 use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -36,7 +36,7 @@ static DAB: Table<Dab> = Table::new(
 );
 
 /// The kind of `dabs`.
-pub(super) const DABS: ListOf<TableOf<Dab>> = ListOf { what: "a list of dabs", each: TableOf(&DAB) };
+pub(super) const DABS: ListOf<TableOf<Dab>> = ListOf { what: "a list of dabs", most: MANY, each: TableOf(&DAB) };
 
 const AT: Numbers<2> = Numbers { what: "two values [v, w]", bounds: Bounds::ANY, rule: Rule::Free };
 

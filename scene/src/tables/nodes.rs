@@ -7,7 +7,7 @@ use crate::document::check::Check;
 use crate::document::declare::keys;
 use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::{Item, Value};
-use crate::document::kind::{Bounds, Colors, ListOf, Number, Numbers, Rule, TableOf, Text};
+use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, Numbers, Rule, TableOf, Text};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
@@ -20,6 +20,16 @@ pub struct Node {
     pub color: NodeColor,
     /// α_u per reference length; an `#rrggbbaa` colour has already been multiplied in.
     pub opacity: f64,
+}
+
+impl Node {
+    /// The name of its style, if it has one.
+    pub fn style(&self) -> Option<&str> {
+        match &self.color {
+            NodeColor::Style(name) => Some(name),
+            NodeColor::Color(_) => None,
+        }
+    }
 }
 
 /// The look of a node.
@@ -215,7 +225,7 @@ impl Kind for StyleName {
 pub(super) struct Nodes;
 
 /// The nodes, whatever their order.
-const NODES: ListOf<TableOf<Written>> = ListOf { what: "a list of nodes", each: TableOf(&NODE) };
+const NODES: ListOf<TableOf<Written>> = ListOf { what: "a list of nodes", most: MANY, each: TableOf(&NODE) };
 
 impl Shape for Nodes {
     fn expected(&self) -> String {
@@ -228,6 +238,10 @@ impl Shape for Nodes {
 
     fn item_section(&self) -> Option<Section> {
         NODES.item_section()
+    }
+
+    fn most_items(&self) -> Option<usize> {
+        NODES.most_items()
     }
 }
 
@@ -329,16 +343,27 @@ fn rows(nodes: &[Written]) -> Result<Vec<Row>, [f64; 2]> {
             _ => rows.push((y, vec![node])),
         }
     }
-    // The longest row has the most places; what it has and another has not is missing there, and the other way round.
-    let count = |row: &[Node], x: f64| row.iter().filter(|node| node.at == x).count();
-    for (_, full) in &rows {
-        for (y, row) in &rows {
-            if let Some(node) = full.iter().find(|node| count(row, node.at) < count(full, node.at)) {
-                return Err([node.at, *y]);
-            }
+    // A row that has all x of the first one and differs from it has one that the first lacks.
+    let xs = |row: &[Node]| row.iter().map(|node| node.at).collect::<Vec<_>>();
+    let first = rows.first().map_or(Vec::new(), |(_, row)| xs(row));
+    for (y, row) in &rows {
+        if let Some(x) = missing(&first, &xs(row)) {
+            return Err([x, *y]);
         }
     }
+    if let Some(x) = rows.iter().find_map(|(_, row)| missing(&xs(row), &first)) {
+        return Err([x, rows[0].0]);
+    }
     Ok(rows.into_iter().map(|(y, nodes)| Row { at: RowAt::Number(y), nodes }).collect())
+}
+
+/// The first number of a list that another list lacks, or has less often. Both are in non-decreasing order.
+fn missing(full: &[f64], row: &[f64]) -> Option<f64> {
+    let mut rest = row.iter().peekable();
+    full.iter().copied().find(|x| {
+        while rest.next_if(|other| *other < x).is_some() {}
+        rest.next_if(|other| *other == x).is_none()
+    })
 }
 
 /// The description of a row.
@@ -359,7 +384,7 @@ static ROW: Table<Row> = Table::new(
 struct RowAtKind;
 
 const ROW_NAME: Text = Text { what: "the name of a label" };
-const ROW_LABELS: ListOf<Label> = ListOf { what: "a list of labels", each: Label };
+const ROW_LABELS: ListOf<Label> = ListOf { what: "a list of labels", most: MANY, each: Label };
 
 impl Shape for RowAtKind {
     fn expected(&self) -> String {
@@ -405,6 +430,10 @@ impl Shape for LineOfNodes {
     fn schema(&self) -> Json {
         NODES.schema()
     }
+
+    fn most_items(&self) -> Option<usize> {
+        NODES.most_items()
+    }
 }
 
 impl Kind for LineOfNodes {
@@ -428,7 +457,7 @@ impl Kind for LineOfNodes {
 }
 
 /// The rows of a function over two quantities.
-pub(super) const ROWS: ListOf<TableOf<Row>> = ListOf { what: "a list of rows", each: TableOf(&ROW) };
+pub(super) const ROWS: ListOf<TableOf<Row>> = ListOf { what: "a list of rows", most: MANY, each: TableOf(&ROW) };
 
 #[cfg(test)]
 mod tests {

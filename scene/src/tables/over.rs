@@ -217,7 +217,7 @@ impl Axis {
 pub(super) struct OverKind;
 
 /// The two quantities.
-const TWO: ListOf<AxisKind> = ListOf { what: "a list of two quantities", each: AxisKind };
+const TWO: ListOf<AxisKind> = ListOf { what: "a list of two quantities", most: 2, each: AxisKind };
 
 impl Shape for OverKind {
     fn expected(&self) -> String {

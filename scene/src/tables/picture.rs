@@ -6,7 +6,7 @@ use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::{Item, Value};
 use crate::document::kind::{
-    Bounds, Choice, ChoiceOption, Colors, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
+    Bounds, Choice, ChoiceOption, Colors, FEW, Lengths, ListOf, Number, On, Whole, Wholes, nearest_color, parse_color,
 };
 use crate::document::out::Out;
 use crate::nearest::nearest;
@@ -196,7 +196,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
             /// Bits a channel of a PNG.
             bits: key("IO-2", Bits);
             /// Layers of an EXR.
-            layers: key("IO-6", ListOf { what: "a list of layers", each: LayerName })
+            layers: key("IO-6", ListOf { what: "a list of layers", most: FEW, each: LayerName })
                 .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
         } },
     )

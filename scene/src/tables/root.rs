@@ -10,7 +10,7 @@ use crate::document::check::Check;
 use crate::document::declare::keys;
 use crate::document::describe::{Kind, Later, Shape, Table};
 use crate::document::item::{Item, Value};
-use crate::document::kind::{ListOf, TableOf};
+use crate::document::kind::{FEW, ListOf, TableOf};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
@@ -83,7 +83,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// The data that is seen.
             volume: key("IO-1", TableOf(&volume::TABLE)).absent("the scene is a template, for any volume");
             /// Planes that cut parts of the volume away.
-            clip: key("RAY-8", ListOf { what: "a list of clips", each: TableOf(&clip::TABLE) },
+            clip: key("RAY-8", ListOf { what: "a list of clips", most: FEW, each: TableOf(&clip::TABLE) },
                 |s| (!s.clips.is_empty()).then(|| s.clips.clone()),
                 |s, v| s.clips = v).absent("none");
             /// The view of the volume.
@@ -95,7 +95,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// The paper that points and lines are drawn on.
             page: key("IO-7", TableOf(&page::TABLE)).absent("no margin, no plotter");
             /// The pens that points and lines are drawn with; layers are numbered in their order.
-            pen: key("IO-7", ListOf { what: "a list of pens", each: TableOf(&pen::TABLE) },
+            pen: key("IO-7", ListOf { what: "a list of pens", most: FEW, each: TableOf(&pen::TABLE) },
                 |s| (!s.pens.is_empty()).then(|| s.pens.clone()),
                 |s, v| s.pens = v).absent("none");
             /// How the field is reconstructed and where it is sampled.
@@ -111,19 +111,19 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// Styles read at the level of detail that the picture can show.
             style_mipmaps: key("STF-10", TableOf(&style_mipmaps::TABLE)).absent("no mip-maps");
             /// Volumetric halos; of emissive ones the first lies in front, of occlusive ones the first is mixed last.
-            halo: key("HALO-1", ListOf { what: "a list of halos", each: TableOf(&halo::TABLE) },
+            halo: key("HALO-1", ListOf { what: "a list of halos", most: FEW, each: TableOf(&halo::TABLE) },
                 |s| (!s.halos.is_empty()).then(|| s.halos.clone()),
                 |s, v| s.halos = v.into_iter().enumerate().map(|(i, halo): (usize, Halo)| halo.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
             /// Operators by which objects are combined.
             combine: key("VS-3", TableOf(&combine::TABLE)).absent("\"zadeh\", with objects");
             /// Objects: selections with a look of their own, which can be moved and cut free.
-            object: key("VS-2", ListOf { what: "a list of objects", each: TableOf(&object::TABLE) },
+            object: key("VS-2", ListOf { what: "a list of objects", most: FEW, each: TableOf(&object::TABLE) },
                 |s| (!s.objects.is_empty()).then(|| s.objects.clone()),
                 |s, v| s.objects = v.into_iter().enumerate().map(|(i, o): (usize, ObjectTable)| o.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
             /// The look of places where a selection meets its ghost or the background.
-            intersection: key("VS-4", ListOf { what: "a list of intersections", each: TableOf(&intersection::TABLE) },
+            intersection: key("VS-4", ListOf { what: "a list of intersections", most: FEW, each: TableOf(&intersection::TABLE) },
                 |s| (!s.intersections.is_empty()).then(|| s.intersections.clone()),
                 |s, v| s.intersections = v).absent("none");
             /// Stippling: dots on the volume's boundaries.
@@ -135,7 +135,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// An opaque iso-surface.
             surface: key("HATCH-14", TableOf(&surface::TABLE)).absent("no surface").needs(&[Quantity::Surface]);
             /// Opaque meshes, which cut the volume and are cut by it.
-            mesh: key("VS-12", ListOf { what: "a list of meshes", each: TableOf(&mesh::TABLE) },
+            mesh: key("VS-12", ListOf { what: "a list of meshes", most: FEW, each: TableOf(&mesh::TABLE) },
                 |s| (!s.meshes.is_empty()).then(|| s.meshes.clone()),
                 |s, v| s.meshes = v).absent("none").needs(&[Quantity::Mesh]);
         } },

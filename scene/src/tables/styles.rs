@@ -4,7 +4,7 @@ use crate::document::check::Check;
 use crate::document::declare::keys;
 use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::item::{Item, Value};
-use crate::document::kind::{Flag, PathTo, TableOf};
+use crate::document::kind::{FEW, Flag, PathTo, TableOf};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
@@ -62,6 +62,7 @@ pub(crate) static TABLE: Table<Styles> = Table {
         kind: Picture,
         doc: "A style of that name: the path of its picture, or { file = \"…\", linear = true }. It goes over the \
               theme's style of that name.",
+        most: FEW,
         list: |styles: &Styles| styles.files.clone(),
         add: |styles, name, file| styles.files.push((name, file)),
     }),

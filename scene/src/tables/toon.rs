@@ -6,7 +6,7 @@ use crate::document::declare::table;
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Colors, ListOf, Number};
+use crate::document::kind::{Bounds, Colors, FEW, ListOf, Number};
 use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
@@ -22,7 +22,7 @@ table! {
         offset: f64 = 0.0, key("HATCH-15", OFFSET);
         /// Factors of colours, each tone where L·N + offset is above its `at`; the first also below.
         tones: Vec<Tone> = vec![Tone { at: 0.0, color: opaque([64.0; 3]) }, Tone { at: 0.5, color: [1.0; 4] }],
-            key("HATCH-15", ListOf { what: "a list of tones", each: ToneKind });
+            key("HATCH-15", ListOf { what: "a list of tones", most: FEW, each: ToneKind });
     }
 }
 

@@ -5,6 +5,7 @@ use super::over::{Axis, Over};
 use super::transfer::{Transfer, TransferKind, Unit};
 use crate::document::Problem;
 use crate::document::check::Check;
+use std::collections::BTreeSet;
 
 /// The keys of every node that the document has, such as `nodes[2]` or `rows[0].nodes[1]`.
 fn keys_of_nodes(check: &Check) -> Vec<String> {
@@ -34,21 +35,29 @@ pub(super) fn kind(kind: TransferKind, check: &mut Check) {
 }
 
 /// Places of the `at` of rows and of nodes in the document, in rows or on a grid.
-struct Places {
-    in_rows: bool,
+enum Places {
+    InRows,
+    /// The first node of each row.
+    OnGrid(Vec<usize>),
 }
 
 impl Places {
-    fn row(&self, rows: &[Row], i: usize) -> String {
-        if self.in_rows { format!("rows[{i}].at") } else { self.node(rows, i, 0) }
+    fn new(rows: &[Row], check: &Check) -> Self {
+        if check.has("rows") {
+            return Self::InRows;
+        }
+        let first = rows.iter().scan(0, |next, row| Some(std::mem::replace(next, *next + row.nodes.len())));
+        Self::OnGrid(first.collect())
     }
 
-    fn node(&self, rows: &[Row], i: usize, j: usize) -> String {
-        if self.in_rows {
-            format!("rows[{i}].nodes[{j}].at")
-        } else {
-            let before: usize = rows[..i].iter().map(|row| row.nodes.len()).sum();
-            format!("nodes[{}].at", before + j)
+    fn row(&self, i: usize) -> String {
+        if let Self::InRows = self { format!("rows[{i}].at") } else { self.node(i, 0) }
+    }
+
+    fn node(&self, i: usize, j: usize) -> String {
+        match self {
+            Self::InRows => format!("rows[{i}].nodes[{j}].at"),
+            Self::OnGrid(first) => format!("nodes[{}].at", first[i] + j),
         }
     }
 }
@@ -71,7 +80,7 @@ pub(super) fn over(transfer: &Transfer, check: &mut Check) {
             contradiction(check, key, what.into(), remedy);
         }
         (Over::Two(axes), _, Some(rows)) => {
-            let places = Places { in_rows: check.has("rows") };
+            let places = Places::new(rows, check);
             rows_stand(&axes[1], rows, &places, check);
             if axes[0].is_id() {
                 nodes_are_ids(rows, &places, check);
@@ -97,8 +106,9 @@ const IDS: &str = "an id is a whole number from 0 to 4294967295";
 
 /// Rows stand where their quantity can be: labels once each, numbers in order.
 fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
+    let mut taken = BTreeSet::new();
     for (i, row) in rows.iter().enumerate() {
-        let key = places.row(rows, i);
+        let key = places.row(i);
         let before = i.checked_sub(1).map(|i| &rows[i].at);
         match (&row.at, before) {
             (RowAt::Name(name), _) if !second.is_id() => {
@@ -112,7 +122,7 @@ fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
                 let what = format!("a row at several labels, and the second quantity is {:?}", second.name());
                 contradiction(check, &key, what, "give it a number");
             }
-            (at, _) if second.is_id() && stands_twice(at, &rows[..i]) => {
+            (at, _) if second.is_id() && stands_twice(at, &mut taken) => {
                 contradiction(check, &key, "a second row for one label".into(), "keep one row for each label");
             }
             (RowAt::Number(after), Some(RowAt::Number(before))) if !second.is_id() && after < before => {
@@ -124,21 +134,23 @@ fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
     }
 }
 
-/// Whether a row stands where it does already, or another one.
-fn stands_twice(at: &RowAt, before: &[Row]) -> bool {
-    let mut stand: Vec<Stand<'_>> = before.iter().flat_map(|row| row.at.each()).collect();
-    at.each().into_iter().any(|at| {
-        let twice = stand.contains(&at);
-        stand.push(at);
-        twice
-    })
+/// Whether a row stands at a label where it does already, or another row. Adds its labels to those `taken`.
+fn stands_twice(at: &RowAt, taken: &mut BTreeSet<String>) -> bool {
+    let label = |stand| match stand {
+        // Zeros of both signs are one id.
+        Stand::Number(id) => (id + 0.0).to_string(),
+        Stand::Name(name) => format!("{name:?}"),
+    };
+    let stands = at.each();
+    let count = stands.len();
+    stands.into_iter().map(label).filter(|label| taken.insert(label.clone())).count() < count
 }
 
 /// Nodes over labels stand at ids, at each once.
 fn nodes_are_ids(rows: &[Row], places: &Places, check: &mut Check) {
     for (i, row) in rows.iter().enumerate() {
         for (j, node) in row.nodes.iter().enumerate() {
-            let key = places.node(rows, i, j);
+            let key = places.node(i, j);
             if !is_id(node.at) {
                 contradiction(check, &key, format!("{} is no label", node.at), IDS);
             } else if j > 0 && row.nodes[j - 1].at == node.at {
@@ -159,13 +171,13 @@ pub(super) fn percentiles(transfer: &Transfer, check: &mut Check) {
         numbers.push((format!("nodes[{i}].at"), node.at));
     }
     if let (Over::Two([first, second]), Some(rows)) = (&transfer.over, &transfer.rows) {
-        let places = Places { in_rows: check.has("rows") };
+        let places = Places::new(rows, check);
         for (i, row) in rows.iter().enumerate() {
             if *first == Axis::Value {
-                numbers.extend(row.nodes.iter().enumerate().map(|(j, node)| (places.node(rows, i, j), node.at)));
+                numbers.extend(row.nodes.iter().enumerate().map(|(j, node)| (places.node(i, j), node.at)));
             }
             if let (Axis::Value, RowAt::Number(at)) = (second, &row.at) {
-                numbers.push((places.row(rows, i), *at));
+                numbers.push((places.row(i), *at));
             }
         }
     }

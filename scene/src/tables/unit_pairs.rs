@@ -4,7 +4,7 @@ use crate::document::Problem;
 use crate::document::check::Check;
 use crate::document::describe::{Kind, Shape};
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, ListOf};
+use crate::document::kind::{Bounds, ListOf, MANY};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
@@ -15,7 +15,7 @@ pub(super) struct UnitPairs;
 struct Pair;
 
 /// The pairs, whatever their order.
-const PAIRS: ListOf<Pair> = ListOf { what: "a list of pairs", each: Pair };
+const PAIRS: ListOf<Pair> = ListOf { what: "a list of pairs", most: MANY, each: Pair };
 
 impl Shape for Pair {
     fn expected(&self) -> String {

@@ -1,4 +1,4 @@
-//! Lists of any length.
+//! Lists of any length up to a limit.
 
 use crate::document::check::Check;
 use crate::document::describe::{Kind, Section, Shape};
@@ -7,20 +7,32 @@ use crate::document::item::{Item, Value};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
+/// The most items of a list whose items are effects or names of them. Every sample or every part asks each of them.
+pub(crate) const FEW: usize = 256;
+
+/// The most items of a list of data, such as nodes, labels or strokes.
+pub(crate) const MANY: usize = 100_000;
+
 /// A list with at least one item.
 pub(crate) struct ListOf<K> {
     /// The list in words: `a list of layers`.
     pub(crate) what: &'static str,
+    /// The most items.
+    pub(crate) most: usize,
     pub(crate) each: K,
 }
 
 impl<K: Shape> Shape for ListOf<K> {
     fn expected(&self) -> String {
-        format!("{} with at least one, each {}", self.what, self.each.expected())
+        format!("{} with at least one and at most {}, each {}", self.what, self.most, self.each.expected())
     }
 
     fn schema(&self) -> Json {
-        json!({ "type": "array", "items": self.each.schema(), "minItems": 1 })
+        json!({ "type": "array", "items": self.each.schema(), "minItems": 1, "maxItems": self.most })
+    }
+
+    fn most_items(&self) -> Option<usize> {
+        Some(self.most)
     }
 
     fn item_section(&self) -> Option<Section> {
@@ -34,6 +46,7 @@ impl<K: Kind> Kind for ListOf<K> {
     /// None if any item is at fault; the faults of all are said.
     fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<K::Of>> {
         match item.list() {
+            Some(items) if items.len() > self.most => check.too_many(&items[self.most].place, [items.len(), self.most]),
             Some(items) if !items.is_empty() => {
                 let read = |(i, item): (usize, &Item)| {
                     check.within_item(i, |check| {

@@ -13,7 +13,7 @@ mod vector;
 pub(crate) use choice::{Choice, ChoiceOption};
 pub(crate) use color::{Colors, nearest_color, parse_color};
 pub(crate) use length::{Lengths, On, WORLD_LENGTH};
-pub(crate) use list::ListOf;
+pub(crate) use list::{FEW, ListOf, MANY};
 pub(crate) use number::{Bounds, End, Flag, Number, Whole};
 pub(crate) use path::PathTo;
 pub(crate) use table::TableOf;

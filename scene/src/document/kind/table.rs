@@ -1,6 +1,6 @@
 //! Tables inside tables; a scene file itself is one.
 
-use crate::document::check::{Check, table_expected};
+use crate::document::check::Check;
 use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::Item;
 use crate::document::out::Out;
@@ -12,7 +12,7 @@ pub(crate) struct TableOf<S: 'static>(pub(crate) &'static Table<S>);
 
 impl<S> Shape for TableOf<S> {
     fn expected(&self) -> String {
-        table_expected(self.0)
+        self.0.head().expected()
     }
 
     fn schema(&self) -> Json {

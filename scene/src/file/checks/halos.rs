@@ -2,7 +2,6 @@
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::nearest::nearest;
 use crate::picture::LayerKind;
 use crate::tables::{Halo, HaloKind, LabelKey, Scene, StepAlong};
 
@@ -39,16 +38,11 @@ fn names(halos: &[Halo], check: &mut Check) {
 
 /// What a halo tints must be an emissive one.
 fn tints(halos: &[Halo], check: &mut Check) {
-    let emissive = || halos.iter().filter(|halo| halo.kind == HaloKind::Emissive).map(|halo| halo.name.as_str());
+    let emissive = halos.iter().filter(|halo| halo.kind == HaloKind::Emissive).map(|halo| halo.name.as_str());
+    let emissive: Vec<&str> = emissive.collect();
     for (i, halo) in halos.iter().enumerate() {
-        for (j, name) in halo.tints.iter().enumerate().filter(|(_, name)| emissive().all(|known| known != *name)) {
-            let problem = Problem::Reference {
-                what: "emissive halo".into(),
-                name: name.clone(),
-                nearest: nearest(name, emissive()).map(Into::into),
-                known: emissive().map(Into::into).collect(),
-            };
-            check.fault_in(&format!("halo[{i}].tints[{j}]"), problem);
+        for (j, name) in halo.tints.iter().enumerate().filter(|(_, name)| !emissive.contains(&name.as_str())) {
+            check.unknown_in(&format!("halo[{i}].tints[{j}]"), "emissive halo", name, &emissive);
         }
     }
 }

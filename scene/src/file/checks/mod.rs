@@ -6,10 +6,10 @@ mod page;
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::nearest::nearest;
 use crate::style::Theme;
 use crate::tables::{Axis, DotColor, LabelKey, Over, PenSettings, Scene, Stand, Styles};
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Reports every contradiction between tables, and every name that nothing has.
 pub(super) fn check(scene: &Scene, check: &mut Check) {
@@ -28,34 +28,37 @@ fn styles(scene: &Scene, check: &mut Check) {
     if !check.sound(&["styles", "object"]) {
         return;
     }
+    let mut known_at = BTreeMap::new();
     for (name, key, place) in check.take_styles() {
-        let Some(known) = known_styles(&styles_at(scene, &key, check)) else { continue };
+        let part = part_of(scene, &key);
+        let known = known_at.entry(part).or_insert_with(|| known_styles(&styles_at(scene, part, check)));
+        let Some(known) = known else { continue };
         if !known.contains(&name) {
-            let nearest = nearest(&name, known.iter().map(String::as_str)).map(Into::into);
-            let problem = Problem::Reference { what: "style".into(), name, nearest, known: known.clone() };
-            check.fault_of(key, &place, problem);
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            check.unknown_of(key, &place, "style", &name, &known);
         }
     }
 }
 
-/// The styles that a key can name: those of the part that it is about, or else the picture's.
-fn styles_at<'a>(scene: &'a Scene, key: &str, check: &Check) -> Cow<'a, Styles> {
-    let inside = key.strip_prefix("object[").and_then(|rest| rest.split_once("]."));
-    match inside.and_then(|(i, key)| Some((i.parse::<usize>().ok()?, key))) {
-        Some((i, key)) if i < scene.objects.len() => {
-            Cow::Owned(scene.styles_of(i, key.starts_with("ghost"), &|key| check.place(key).is_some()))
-        }
-        _ => Cow::Borrowed(&scene.styles),
-    }
+/// The object that a key is about, and whether it is about the object's ghost; none: it is about the picture.
+fn part_of(scene: &Scene, key: &str) -> Option<(usize, bool)> {
+    let (i, key) = key.strip_prefix("object[")?.split_once("].")?;
+    let i = i.parse().ok().filter(|&i| i < scene.objects.len())?;
+    Some((i, key.starts_with("ghost")))
 }
 
-/// The names of all styles, in order; none if the theme cannot be listed.
-fn known_styles(styles: &Styles) -> Option<Vec<String>> {
+/// The styles that a part or the picture can name.
+fn styles_at<'a>(scene: &'a Scene, part: Option<(usize, bool)>, check: &Check) -> Cow<'a, Styles> {
+    part.map_or(Cow::Borrowed(&scene.styles), |(i, is_ghost)| {
+        Cow::Owned(scene.styles_of(i, is_ghost, &|key| check.place(key).is_some()))
+    })
+}
+
+/// The names of all styles; none if the theme cannot be listed.
+fn known_styles(styles: &Styles) -> Option<BTreeSet<String>> {
     let theme = Theme::open(&styles.theme).ok()?;
-    let mut known: Vec<String> = theme.names().map(Into::into).collect();
+    let mut known: BTreeSet<String> = theme.names().map(Into::into).collect();
     known.extend(styles.files.iter().map(|(name, _)| name.clone()));
-    known.sort();
-    known.dedup();
     Some(known)
 }
 

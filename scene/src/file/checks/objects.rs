@@ -3,8 +3,8 @@
 use super::no_label_names;
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::nearest::nearest;
 use crate::tables::{LabelKey, ObjectTable, PartName, Scene};
+use std::collections::BTreeSet;
 
 /// Reports every contradiction of objects, and every name of a part that nothing has.
 pub(super) fn check(scene: &Scene, check: &mut Check) {
@@ -81,8 +81,10 @@ fn references(scene: &Scene, check: &mut Check) {
     let of_halos = scene.halos.iter().enumerate();
     let of_halos = of_halos.filter_map(|(i, halo)| Some((format!("halo[{i}].object"), halo.object.as_ref()?)));
     let known = known_parts(&scene.objects);
-    let all: Vec<_> = of_clips.chain(of_halos).filter(|(_, part)| !known.contains(part)).collect();
+    let there: BTreeSet<&PartName> = known.iter().collect();
+    let all: Vec<_> = of_clips.chain(of_halos).filter(|(_, part)| !there.contains(part)).collect();
     let known: Vec<String> = known.iter().map(ToString::to_string).collect();
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
     for (key, part) in all {
         if let PartName::Ghost(name) = part
             && scene.objects.iter().any(|object| object.name == *name)
@@ -91,7 +93,7 @@ fn references(scene: &Scene, check: &mut Check) {
             check.fault_in(&key, Problem::Contradiction { what, remedy: format!("move {name:?}, or name the object") });
             continue;
         }
-        unknown(&key, "part", &part.to_string(), known.clone(), check);
+        check.unknown_in(&key, "part", &part.to_string(), &known);
     }
 }
 
@@ -115,8 +117,8 @@ fn intersections(scene: &Scene, check: &mut Check) {
             let remedy = "add an [[object]], or remove the [[intersection]]".into();
             check.fault_in(&format!("intersection[{i}].object"), Problem::Contradiction { what, remedy });
         } else if scene.objects.iter().all(|object| object.name != table.object) {
-            let known = scene.objects.iter().map(|object| object.name.clone()).collect();
-            unknown(&format!("intersection[{i}].object"), "object", &table.object, known, check);
+            let known: Vec<&str> = scene.objects.iter().map(|object| object.name.as_str()).collect();
+            check.unknown_in(&format!("intersection[{i}].object"), "object", &table.object, &known);
         }
         let same = |other: &&_| -> bool {
             let other: &crate::tables::IntersectionTable = other;
@@ -128,12 +130,6 @@ fn intersections(scene: &Scene, check: &mut Check) {
             check.fault_in(&format!("intersection[{i}]"), Problem::Contradiction { what, remedy });
         }
     }
-}
-
-/// Reports a name that nothing has.
-fn unknown(key: &str, what: &str, name: &str, known: Vec<String>, check: &mut Check) {
-    let nearest = nearest(name, known.iter().map(String::as_str)).map(Into::into);
-    check.fault_in(key, Problem::Reference { what: what.into(), name: name.into(), nearest, known });
 }
 
 #[cfg(test)]
@@ -176,6 +172,16 @@ mod tests {
                 object("selection = \"s.nrrd\"\nlabel = 3\nvalue = [[0, 1]]"),
                 "object[0].selection",
                 "\n  keep selection or label or value",
+            ),
+            (
+                object("strokes = [{ watershed = [1, 2, 3], brush = \"ball\" }]"),
+                "object[0].strokes[0].watershed",
+                "a stroke has both watershed and brush\n  at scene.toml:7:14, key object[0].strokes[0].watershed\n  keep watershed or brush",
+            ),
+            (
+                object("strokes = [{ watershed = [1, 2, 3], radius = 2, brush = \"ball\" }]"),
+                "object[0].strokes[0].watershed",
+                "keep watershed, or radius and brush",
             ),
             (object("move = [0, nan, 0]"), "key object[0].move[1]", "object[0].move[1] cannot be NaN\n"),
             (object("scale = [1, 1, inf]"), "key object[0].scale[2]", "\n  write a finite number"),

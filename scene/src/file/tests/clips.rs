@@ -68,7 +68,7 @@ fn wrong_clips_say_what_is_wrong() {
         ),
         (
             "normal = [1, 2, 3]\nbox = [[0, 1], [0, 1], [0, 1]]\n",
-            "a clip has both box and normal\n  at scene.toml:6:1, key clip[0].box\n  keep box or point with normal",
+            "a clip has both box and normal\n  at scene.toml:6:1, key clip[0].box\n  keep box or normal",
         ),
         (
             "box = [[0, 1], [0, 1], [2, 1]]\n",

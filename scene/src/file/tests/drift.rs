@@ -3,7 +3,7 @@
 use super::*;
 
 /// A key, what must stand beside it to have an effect, and a value that is not its default.
-type Sample = (&'static str, &'static [(&'static str, &'static str)], &'static str);
+pub(super) type Sample = (&'static str, &'static [(&'static str, &'static str)], &'static str);
 
 const NODES: (&str, &str) = ("transfer.nodes", "[{ at = 1, style = \"wax\" }, { at = 9, style = \"wax\" }]");
 const COLORS: (&str, &str) = ("transfer.nodes", "[{ at = 1, color = \"red\" }]");
@@ -40,7 +40,7 @@ const TABLE: (&str, &str) = ("shading.model", "lighting-function");
 const TOON: (&str, &str) = ("shading.model", "toon");
 const ORTHOGRAPHIC: (&str, &str) = ("camera.projection", "orthographic");
 
-const SAMPLES: &[Sample] = &[
+pub(super) const SAMPLES: &[Sample] = &[
     ("light", &[], "[1, 2, 3]"),
     ("volume", &[], "{ file = \"b.nrrd\" }"),
     ("volume.file", &[], "b.nrrd"),
@@ -391,7 +391,7 @@ const SAMPLES: &[Sample] = &[
 /// Keys that can have one value only, so far.
 const ONE_VALUE: [&str; 2] = ["drypoint", "preset"];
 
-fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
+pub(super) fn with(settings: &[(&str, &str)]) -> Result<Scene, Faults> {
     parse(HEAD, Path::new("scene.toml"), &settings.iter().copied().collect())
 }
 

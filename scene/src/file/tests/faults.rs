@@ -136,7 +136,7 @@ fn a_wrong_value_says_what_may_stand_there() {
         (
             "[transfer]\nnodes = []\n",
             "transfer.nodes cannot be []",
-            "write a list of nodes with at least one, each a table with the keys at, style, opacity, color",
+            "write a list of nodes with at least one and at most 100000, each a table with the keys at, style, opacity, color",
         ),
         ("[styles]\nwax = \"\"\n", "styles.wax cannot be \"\"", "write the path of a square picture in quotes"),
         (
@@ -223,6 +223,17 @@ fn what_must_be_there() {
 }
 
 #[test]
+fn a_phantom_that_has_no_grid_names_its_spacing() {
+    let text = "drypoint = 1\n[volume]\nphantom = { name = \"torus\", spacing = [1, 1, 1e-20] }\n";
+    let faults = parse(text, Path::new("s"), &Overrides::default()).unwrap_err();
+    assert_eq!(
+        faults.to_string(),
+        "voxels of a spacing of [1, 1, 1e-20] are flat, or too small\n  at s:3:29, key volume.phantom.spacing\n  write \
+         numbers of which none is 10¹² times another, such as [1, 1, 2]"
+    );
+}
+
+#[test]
 fn what_does_not_go_together() {
     for (rest, what, remedy) in [
         (
@@ -237,8 +248,8 @@ fn what_does_not_go_together() {
         ),
         (
             "[picture]\nsize = [8, 8]\nwidth = \"10 mm\"\nheight = \"10 mm\"\n",
-            "[picture] has both size and width, height",
-            "keep size or width with height",
+            "[picture] has both size and width and height",
+            "keep size, or width and height",
         ),
         (
             "[picture]\nwidth = \"9000 mm\"\nheight = \"9000 mm\"\n",

@@ -3,6 +3,8 @@
 mod clips;
 mod drift;
 mod faults;
+mod found;
+mod limits;
 mod over;
 mod overrides;
 mod random;

@@ -30,6 +30,7 @@ fn valid(schema: &Value, value: &Value) -> bool {
         "maxItems" => value.as_array().is_none_or(|a| a.len() as u64 <= rule.as_u64().unwrap()),
         "items" => value.as_array().is_none_or(|a| a.iter().all(|v| valid(rule, v))),
         "required" => rule.as_array().unwrap().iter().all(|name| value.get(name.as_str().unwrap()).is_some()),
+        "maxProperties" => value.as_object().is_none_or(|o| o.len() as u64 <= rule.as_u64().unwrap()),
         "properties" => {
             value.as_object().is_none_or(|o| o.iter().all(|(name, v)| rule.get(name).is_none_or(|s| valid(s, v))))
         }

@@ -12,7 +12,7 @@ pub(super) const RULES: Rules = Rules {
     items: Some(|scene| scene.halos.len()),
     asks: |scene, asks| {
         let item = asks.at.item.filter(|_| asks.casts_rays());
-        let Some((_, halo)) = item.and_then(|item| halos_in_effect(scene).find(|(i, _)| *i == item)) else { return };
+        let Some(halo) = item.and_then(|item| halo_in_effect(scene, item)) else { return };
         let effect = format!("halo {}", item.unwrap_or_default());
         // The needs of data of an object's own are its parts'.
         if halo.object.as_ref().is_none_or(|part| scene.own_data_of(part).is_none()) {
@@ -28,7 +28,7 @@ pub(super) const RULES: Rules = Rules {
         if !plan.has_pass(Pass::Rays) {
             let key = idle.at.key.clone();
             idle.key(&key, "the volume itself is not drawn");
-        } else if halos_in_effect(scene).all(|(i, _)| i != item) {
+        } else if halo_in_effect(scene, item).is_none() {
             let key = if halo.opacity == 0.0 { idle.at.inner("opacity") } else { idle.at.inner("profile") };
             let why = "nothing of the halo is seen at this opacity";
             if idle.says(&key) {
@@ -55,9 +55,14 @@ pub(super) const RULES: Rules = Rules {
 
 /// The halos that change the picture or are shown by a layer, with their places in the list.
 pub fn halos_in_effect(scene: &Scene) -> impl Iterator<Item = (usize, &Halo)> {
-    let is_seen = |halo: &Halo| halo.opacity > 0.0 && halo.profile.iter().any(|node| node.opacity > 0.0);
-    let layers = &scene.picture.layers;
-    scene.halos.iter().enumerate().filter(move |(i, halo)| is_seen(halo) || layers.contains(&LayerKind::Halo(*i)))
+    (0..scene.halos.len()).filter_map(|i| Some((i, halo_in_effect(scene, i)?)))
+}
+
+/// The halo at a place in the list, if it changes the picture or is shown by a layer.
+fn halo_in_effect(scene: &Scene, item: usize) -> Option<&Halo> {
+    let halo = scene.halos.get(item)?;
+    let is_seen = halo.opacity > 0.0 && halo.profile.iter().any(|node| node.opacity > 0.0);
+    (is_seen || scene.picture.layers.contains(&LayerKind::Halo(item))).then_some(halo)
 }
 
 /// Asks for what seeds are made of. A sample without a normal is no seed, whatever the exponents ([PREC-3]).
@@ -109,8 +114,8 @@ fn idle_keys(halo: &Halo, idle: &mut Idle) {
 
 /// Settings of a halo in effect.
 fn used(scene: &Scene, plan: &Plan, item: Option<usize>, settings: fn(&Halo) -> Settings) -> Settings {
-    let halo = halos_in_effect(scene).find(|(i, _)| Some(*i) == item && plan.has_pass(Pass::Rays));
-    halo.map_or(&[], |(_, halo)| settings(halo))
+    let halo = item.filter(|_| plan.has_pass(Pass::Rays)).and_then(|item| halo_in_effect(scene, item));
+    halo.map_or(&[], settings)
 }
 
 /// Settings of `accumulate`, where a group has several planes.

@@ -3,7 +3,7 @@
 use super::{Asks, Idle, Pass, Rules, halos_in_effect};
 use crate::plan::{Need, Plan, Samples};
 use crate::quantity::Quantity;
-use crate::tables::{ObjectTable, Opposite, PartName, Role, Scene, TransferKind};
+use crate::tables::{IntersectionTable, ObjectTable, Opposite, PartName, Role, Scene, TransferKind};
 
 /// The rules of `[[object]]`.
 pub(super) const RULES: Rules = Rules {
@@ -85,7 +85,9 @@ fn meeting(scene: &Scene, item: usize) -> Vec<(Side, Need)> {
 impl Plan {
     /// Adds what a part is asked for where it meets other looks.
     pub fn add_meetings(&mut self, scene: &Scene, object: usize, role: Role) {
-        for item in (0..scene.intersections.len()).filter(|&item| why_idle(scene, item).is_none()) {
+        let of_object = |table: &IntersectionTable| table.object == scene.objects[object].name;
+        let items = (0..scene.intersections.len()).filter(|&item| of_object(&scene.intersections[item]));
+        for item in items.filter(|&item| why_idle(scene, item).is_none()) {
             let of_part = meeting(scene, item).into_iter().filter(|(shades, _)| *shades == Some((object, role)));
             self.needs.extend(of_part.map(|(_, need)| Need { samples: Samples::Meetings, ..need }));
         }

@@ -3,7 +3,7 @@
 use crate::document::Problem;
 use crate::document::declare::keys;
 use crate::document::describe::{Instead, Table};
-use crate::document::kind::{Bounds, Lengths, ListOf, Numbers, On, Rule};
+use crate::document::kind::{Bounds, Lengths, ListOf, MANY, Numbers, On, Rule};
 use crate::tables::Length;
 use glam::DVec3;
 
@@ -48,12 +48,14 @@ const DISTANCE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE 
 /// Points of the world.
 const POINTS: ListOf<Numbers<3>> = ListOf {
     what: "a list of points",
+    most: MANY,
     each: Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
 };
 
 /// Points of the picture.
 const PIXELS: ListOf<Numbers<2>> = ListOf {
     what: "a list of pixels",
+    most: MANY,
     each: Numbers { what: "a pixel [x, y]", bounds: Bounds::NOT_NEGATIVE, rule: Rule::Free },
 };
 

@@ -5,7 +5,7 @@ use crate::document::check::Check;
 use crate::document::declare::keys;
 use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Colors, ListOf, Number, TableOf};
+use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, TableOf};
 use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::Value as Json;
@@ -49,7 +49,7 @@ static NODE: Table<ProfileNode> = Table::new(
 pub(super) struct Profile;
 
 /// The nodes, whatever their order.
-const NODES: ListOf<TableOf<ProfileNode>> = ListOf { what: "a list of nodes", each: TableOf(&NODE) };
+const NODES: ListOf<TableOf<ProfileNode>> = ListOf { what: "a list of nodes", most: MANY, each: TableOf(&NODE) };
 
 impl Shape for Profile {
     fn expected(&self) -> String {
@@ -62,6 +62,10 @@ impl Shape for Profile {
 
     fn item_section(&self) -> Option<Section> {
         NODES.item_section()
+    }
+
+    fn most_items(&self) -> Option<usize> {
+        NODES.most_items()
     }
 }
 

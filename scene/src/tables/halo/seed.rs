@@ -6,7 +6,7 @@ use crate::document::check::Check;
 use crate::document::declare::{choices, table};
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Lengths, ListOf, Number, On, TableOf};
+use crate::document::kind::{Bounds, Lengths, ListOf, MANY, Number, On, TableOf};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use crate::tables::over::Label;
@@ -30,7 +30,7 @@ table! {
         focus: Option<HaloFocus> = None, key("HALO-2", TableOf(&focus::TABLE)).absent("1");
         /// h_l: seeds of these parts alone, each the id of a label or a name of `volume.label_names`.
         labels: Option<Vec<LabelKey>> = None,
-            key("HALO-2", ListOf { what: "a list of labels", each: Label }).absent("1").needs(&[Quantity::Label]);
+            key("HALO-2", ListOf { what: "a list of labels", most: MANY, each: Label }).absent("1").needs(&[Quantity::Label]);
         /// The factor that is large where a surface is seen from the side.
         by: SeedBy = SeedBy::Power, key("HALO-3", SeedBy::KIND).needs(&[Quantity::PreviousNormal, Quantity::Hessian]);
         /// T of by = "curvature": how deep the band of seeds is, as `contours.thickness`.

@@ -6,7 +6,7 @@ use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, ListOf, Number, Numbers, Rule, TableOf, Text, Whole};
+use crate::document::kind::{Bounds, FEW, ListOf, Number, Numbers, Rule, TableOf, Text, Whole};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use crate::tables::object::{PartName, PartNames};
@@ -167,7 +167,7 @@ pub(crate) static TABLE: Table<Halo> = Table {
             /// How the seeds of a group's planes come together; of emissive halos the default is "mean".
             accumulate: key("HALO-8", HaloAccumulation::KIND);
             /// Names of emissive halos that this occlusive one tints.
-            tints: key("HALO-7", ListOf { what: "a list of names", each: Text { what: "the name of a halo" } },
+            tints: key("HALO-7", ListOf { what: "a list of names", most: FEW, each: Text { what: "the name of a halo" } },
                 |h| (!h.tints.is_empty()).then(|| h.tints.clone()),
                 |h, v| h.tints = v).absent("none");
         } },

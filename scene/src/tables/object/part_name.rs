@@ -9,7 +9,7 @@ use serde_json::Value as Json;
 use std::fmt;
 
 /// The name of a part of a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PartName {
     /// `"background"`: the volume of `[volume]`, with all that is drawn of it.
     Background,

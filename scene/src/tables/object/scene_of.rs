@@ -34,20 +34,16 @@ impl Scene {
         let transfer: [Option<&Transfer>; 2] = [ghost.and_then(|g| g.transfer.as_ref()), table.transfer.as_ref()];
         let shading: [Option<&Shading>; 2] = [ghost.and_then(|g| g.shading.as_ref()), table.shading.as_ref()];
         let mut scene = Self {
-            given: self.given.with_tables(&tables_of(object, table, ghost)),
-            transfer: first(transfer).or_else(|| self.transfer.clone()),
-            shading: first(shading).or_else(|| self.shading.clone()),
+            given: self.given.with_tables(tables_of(object, table, ghost)),
+            shading: first(shading).or(self.shading.as_ref()).cloned(),
             styles: self.styles_of(object, ghost.is_some(), &|key| self.given.contains(key)),
             volume: self.volume_of(table),
-            objects: Vec::new(),
-            combine: None,
-            intersections: Vec::new(),
             stipples: None,
             hatching: None,
             outlines: None,
             surface: None,
             meshes: Vec::new(),
-            ..self.clone()
+            ..self.with_transfer(first(transfer).or(self.transfer.as_ref()))
         };
         let own = match role {
             Role::Selection => PartName::Selection(table.name.clone()),
@@ -88,7 +84,37 @@ impl Scene {
 
     /// The scene of the background: without objects.
     pub fn of_background(&self) -> Self {
-        Self { objects: Vec::new(), combine: None, intersections: Vec::new(), ..self.clone() }
+        self.with_transfer(self.transfer.as_ref())
+    }
+
+    /// The scene without objects and with a transfer function. What is left out is not copied: every part has such a scene.
+    fn with_transfer(&self, transfer: Option<&Transfer>) -> Self {
+        Self {
+            light: self.light,
+            volume: self.volume.clone(),
+            clips: self.clips.clone(),
+            camera: self.camera.clone(),
+            orbit: self.orbit,
+            picture: self.picture.clone(),
+            page: self.page.clone(),
+            pens: self.pens.clone(),
+            sampling: self.sampling.clone(),
+            transfer: transfer.cloned(),
+            styles: self.styles.clone(),
+            shading: self.shading.clone(),
+            contours: self.contours.clone(),
+            style_mipmaps: self.style_mipmaps.clone(),
+            halos: self.halos.clone(),
+            combine: None,
+            objects: Vec::new(),
+            intersections: Vec::new(),
+            stipples: self.stipples.clone(),
+            hatching: self.hatching.clone(),
+            outlines: self.outlines.clone(),
+            surface: self.surface.clone(),
+            meshes: self.meshes.clone(),
+            given: self.given.clone(),
+        }
     }
 
     /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
@@ -142,6 +168,6 @@ fn tables_of(object: usize, table: &ObjectTable, ghost: Option<&GhostTable>) -> 
     tables.into_iter().flatten().collect()
 }
 
-fn first<T: Clone>(tables: [Option<&T>; 2]) -> Option<T> {
-    tables.into_iter().flatten().next().cloned()
+fn first<T>(tables: [Option<&T>; 2]) -> Option<&T> {
+    tables.into_iter().flatten().next()
 }

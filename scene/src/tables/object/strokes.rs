@@ -5,7 +5,7 @@ use crate::document::check::Check;
 use crate::document::declare::{choices, keys};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::item::{Item, Value};
-use crate::document::kind::{Bounds, Lengths, ListOf, Number, Numbers, On, Rule, TableOf};
+use crate::document::kind::{Bounds, Lengths, ListOf, MANY, Number, Numbers, On, Rule, TableOf};
 use crate::document::out::Out;
 use crate::tables::Length;
 use glam::DVec3;
@@ -224,4 +224,5 @@ static STROKE: Table<PaintStroke> = Table {
 };
 
 /// The kind of `strokes`.
-pub(super) const STROKES: ListOf<TableOf<PaintStroke>> = ListOf { what: "a list of strokes", each: TableOf(&STROKE) };
+pub(super) const STROKES: ListOf<TableOf<PaintStroke>> =
+    ListOf { what: "a list of strokes", most: MANY, each: TableOf(&STROKE) };

@@ -8,7 +8,7 @@ use crate::document::declare::{choices, keys};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Flag, Lengths, ListOf, Number, Numbers, On, PathTo, Rule, TableOf, Text};
+use crate::document::kind::{Bounds, Flag, Lengths, ListOf, MANY, Number, Numbers, On, PathTo, Rule, TableOf, Text};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use crate::tables::over::Label;
@@ -234,7 +234,7 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
 /// A label, or a list of labels.
 struct Labels;
 
-const LABELS: ListOf<Label> = ListOf { what: "a list of labels", each: Label };
+const LABELS: ListOf<Label> = ListOf { what: "a list of labels", most: MANY, each: Label };
 
 impl Shape for Labels {
     fn expected(&self) -> String {

@@ -6,11 +6,11 @@ use crate::document::declare::keys;
 use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
-use crate::document::kind::{Bounds, Number, TableOf, Whole, Wholes};
+use crate::document::kind::{Bounds, FEW, Number, TableOf, Whole, Wholes};
 use crate::document::out::Out;
 use crate::nearest::nearest;
-use crate::phantom;
 pub use crate::phantom::PhantomSource;
+use crate::phantom::{self, PhantomError};
 use crate::volume::VoxelType;
 use serde_json::{Value as Json, json};
 
@@ -70,8 +70,15 @@ fn check_phantom(source: &PhantomSource, check: &mut Check) {
     if check.sound(&["size", "spacing", "type", "param"])
         && let Err(error) = phantom::of_source(source)
     {
-        let remedy = format!("change the parameters: {}", about.doc);
-        check.fault_in("param", Problem::Contradiction { what: error.to_string(), remedy });
+        let (key, what, remedy) = match error {
+            PhantomError::Space(_) => {
+                let spacing = Out::numbers(&source.spacing).toml();
+                let what = format!("voxels of a spacing of {spacing} are flat, or too small");
+                ("spacing", what, "write numbers of which none is 10¹² times another, such as [1, 1, 2]".into())
+            }
+            _ => ("param", error.to_string(), format!("change the parameters: {}", about.doc)),
+        };
+        check.fault_in(key, Problem::Contradiction { what, remedy });
     }
 }
 
@@ -109,6 +116,7 @@ static PARAMS: Table<Vec<(String, f64)>> = Table {
     open: Some(&Names {
         kind: Number { bounds: Bounds::ANY, unit: "" },
         doc: "A parameter of the phantom.",
+        most: FEW,
         list: |params: &Vec<(String, f64)>| params.clone(),
         add: |params, name, value| params.push((name, value)),
     }),
