@@ -176,7 +176,7 @@ fn laplacians(volume: &Volume, voxels: &[PointVoxel]) -> Result<Vec<f64>, Stippl
         let (_, h) = at(&field, cell);
         h.x_axis.x + h.y_axis.y + h.z_axis.z
     };
-    let largest = parallel::map((ny * nz) as usize, &|row| {
+    let largest = parallel::map(ny * nz, &|row| {
         (row * nx..(row + 1) * nx).fold(0.0, |largest: f64, i| largest.max(laplacian(cell(i)).abs()))
     });
     let largest = largest.into_iter().fold(0.0, f64::max);

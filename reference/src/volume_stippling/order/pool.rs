@@ -84,7 +84,7 @@ impl Class {
                     #[inline(always)]
                     || Site::new(sites, i, links.range(ids[i] as usize), links, size, &mut scratch),
                 );
-                site.fill(pool, rows, &mut scratch);
+                site.fill(pool, rows, &scratch);
                 site
             });
             sites.collect::<Vec<_>>()
