@@ -67,7 +67,35 @@ mod tests {
     use super::*;
     use crate::with_sampler;
     use drypoint_scene::phantom::{by_name, sample};
-    use drypoint_scene::volume::VoxelType;
+    use drypoint_scene::volume::{Volume, VoxelType, Voxels};
+
+    /// A field with a formula reads no voxel: neither between voxels nor at them, where estimators have shorter ways.
+    #[test]
+    fn a_formula_takes_the_place_of_all_voxels() {
+        for voxel_type in [VoxelType::U8, VoxelType::F64] {
+            let grid = Grid::with_spacing([24, 20, 22], [0.5, 1.0, 0.75]).unwrap();
+            let phantom = by_name("torus", &grid, &[]).unwrap();
+            let flat = Volume::new(grid.clone(), zeros(voxel_type, grid.len()), 1.0, 0.0).unwrap();
+            let field = Field::<f64>::new(&flat, Reconstruction::default(), Rung::Hessian).unwrap();
+            let field = field.with_formula(phantom.as_ref());
+            let exact = Exact::new(phantom.as_ref(), &grid, field.scale_exponent());
+            let p = Vec3::new(11.25, 9.5, 10.75);
+            assert_eq!((field.value(p), field.gradient(p)), (exact.value(p), exact.gradient(p)));
+            assert_eq!(field.hessian(p), exact.hessian(p));
+            let at = |x: usize| Vec3::new(x as f64, 9.0, 10.0);
+            let mut squares = vec![0.0; 24];
+            field.voxel_squares([9, 10], &mut Vec::new(), &mut squares);
+            for x in 0..24 {
+                let gradient = exact.gradient(at(x));
+                assert_eq!(field.voxel_gradient([x, 9, 10]), gradient);
+                assert_eq!(squares[x], gradient.dot(gradient));
+            }
+        }
+    }
+
+    fn zeros(voxel_type: VoxelType, n: usize) -> Voxels {
+        if voxel_type == VoxelType::U8 { Voxels::U8(vec![0; n]) } else { Voxels::F64(vec![0.0; n]) }
+    }
 
     /// Central differences, first and second, are exact at the voxels of a quadratic field. There the formula and the
     /// reconstruction agree up to rounding, in the same units.

@@ -202,14 +202,16 @@ impl<R: Real> Field<'_, R> {
     /// # Panics
     /// See [`Sampler::voxel_gradient`].
     pub(crate) fn voxel_squares(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) {
-        if self.integer_squares([y, z], squares) {
+        // A formula is asked at each voxel.
+        let has_voxels = self.formula.is_none();
+        if has_voxels && self.integer_squares([y, z], squares) {
             return;
         }
         let square = |x| {
             let gradient = self.voxel_gradient([x, y, z]);
             gradient.dot(gradient)
         };
-        if self.squares_inside([y, z], rows, squares) {
+        if has_voxels && self.squares_inside([y, z], rows, squares) {
             let last = squares.len() - 1;
             (squares[0], squares[last]) = (square(0), square(last));
         } else {
@@ -320,7 +322,8 @@ impl<R: Real> Sampler<R> for Field<'_, R> {
     #[inline]
     fn voxel_gradient(&self, voxel: [usize; 3]) -> Vec3<R> {
         let [x, y, z] = voxel;
-        match gradient::at_voxel(self, x, y, z) {
+        let read = if self.formula.is_none() { gradient::at_voxel(self, x, y, z) } else { None };
+        match read {
             Some(index) => self.to_world.apply(index),
             None => self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
         }
