@@ -208,16 +208,17 @@ fn lines_as_dense_as_no_pen_draws() {
         ("hatching.spacing=\"1e-308px\"", "spacing"),
         ("hatching.width=\"1e-4px\"", "width"),
     ] {
-        let line = format!("strokes torus.nrrd --set hatching.spacing=\"tone\" --set {set} -o a.svg");
+        let tone = "strokes torus.nrrd --set hatching.spacing=\"tone\"";
+        let line = format!("{tone} --set {set} -o a.svg");
         let said = folder.refused(&line);
         assert!(said.starts_with(&format!("error: hatching.{key} puts lines 8.5e-")), "{said}");
         assert!(said.contains(" strokes on the page, and at most 1e6 are drawn\n"), "{said}");
         assert!(said.contains(&format!("  at: --set {set}, key hatching.{key}\n  try: make the distance ")), "{said}");
         // What the message says is drawn; without seeds in no time.
         let distance = said.split("make the distance ").nth(1).unwrap().split(" mm").next().unwrap();
-        let seeds = "--set hatching.min_curvature=1 --set hatching.min_gradient=1";
+        let seeds = "--set hatching.seeds=\"curvature\" --set hatching.min_curvature=1 --set hatching.min_gradient=1";
         let set = format!("hatching.{key}=\"{distance}mm\"");
-        folder.good(&format!("strokes torus.nrrd --set hatching.spacing=\"tone\" --set {set} {seeds} -o a.svg"));
+        folder.good(&format!("{tone} --set {set} {seeds} -o a.svg"));
         std::fs::remove_file(folder.path("a.svg")).unwrap();
     }
 }
@@ -242,11 +243,11 @@ fn lengths_beyond_every_page() {
 fn objects_without_end() {
     let folder = Folder::new();
     folder.scene("[[object]]\nname = \"big\"\nvalue = [[90, 0], [160, 1]]\nscale = 1e4\n");
-    for (set, key) in [("object.0.scale=1e4", "scale"), ("object.0.scale=[1,1e200,1]", "scale")] {
+    for set in ["object.0.scale=1e4", "object.0.scale=[1,1e5,1]"] {
         let said = folder.refused(&format!("render scene.toml --set {set} -o a.png"));
         assert!(said.starts_with("error: object 0 is about "), "{said}");
         assert!(said.contains(" steps across, and at most 1e5 are drawn\n"), "{said}");
-        assert!(said.contains(&format!("key object[0].{key}\n  try: scale it less, ")), "{said}");
+        assert!(said.contains(&format!("  at: --set {set}, key object[0].scale\n  try: scale it less, ")), "{said}");
     }
     folder.good("render scene.toml --size 1x1 --set picture.samples=1 --set object.0.scale=20 -o a.png");
 }
@@ -275,7 +276,7 @@ fn pictures_of_intersections() {
          \"part\"\ncolor = \"meeting.png\"\n",
     );
     let said = folder.refused("render scene.toml -o a.png --memory 250MiB");
-    assert!(said.starts_with("error: a picture of 2000 × 2000 pixels needs 0.24 GiB of memory"), "{said}");
+    assert!(said.starts_with("error: meeting.png: a picture of 2000 × 2000 pixels needs 0.24 GiB of memory"), "{said}");
     folder.good("render scene.toml -o a.png --memory 2GiB");
 }
 

@@ -91,7 +91,7 @@ struct GrownStrokes {
 /// strokes that can be drawn.
 fn check_strokes(scene: &Scene, page: &Page, [distance, length]: [f64; 2], key: &str) -> Result<(), Failure> {
     let area = page.picture().x * page.picture().y;
-    let strokes = area / (distance * length);
+    let strokes = (area / (distance * length)).min(f64::MAX);
     if strokes <= MOST_STROKES {
         return Ok(());
     }
