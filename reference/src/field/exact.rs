@@ -85,10 +85,10 @@ mod tests {
             let at = |x: usize| Vec3::new(x as f64, 9.0, 10.0);
             let mut squares = vec![0.0; 24];
             field.voxel_squares([9, 10], &mut Vec::new(), &mut squares);
-            for x in 0..24 {
+            for (x, square) in squares.into_iter().enumerate() {
                 let gradient = exact.gradient(at(x));
                 assert_eq!(field.voxel_gradient([x, 9, 10]), gradient);
-                assert_eq!(squares[x], gradient.dot(gradient));
+                assert_eq!(square, gradient.dot(gradient));
             }
         }
     }
