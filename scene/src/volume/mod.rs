@@ -174,31 +174,37 @@ impl Volume {
     }
 
     /// The grid of the voxels.
+    #[inline]
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
     /// Voxels along x, y, z.
+    #[inline]
     pub fn dims(&self) -> [usize; 3] {
         self.grid.dims()
     }
 
     /// The stored voxels, x fastest.
+    #[inline]
     pub fn voxels(&self) -> &Voxels {
         &self.voxels
     }
 
     /// Value = slope · stored + intercept.
+    #[inline]
     pub fn slope(&self) -> f64 {
         self.slope
     }
 
     /// Value = slope · stored + intercept.
+    #[inline]
     pub fn intercept(&self) -> f64 {
         self.intercept
     }
 
     /// The voxels that were NaN or ±∞ in the file, if there was one.
+    #[inline]
     pub fn mask(&self) -> Option<&Mask> {
         self.mask.as_ref()
     }
@@ -222,9 +228,19 @@ impl Volume {
     ///
     /// # Panics
     /// If the voxel lies outside the grid.
-    pub fn value(&self, [x, y, z]: [usize; 3]) -> f64 {
+    #[inline]
+    pub fn value(&self, voxel: [usize; 3]) -> f64 {
+        self.slope * self.stored(voxel) + self.intercept
+    }
+
+    /// The stored number of a voxel.
+    ///
+    /// # Panics
+    /// If the voxel lies outside the grid.
+    #[inline]
+    pub fn stored(&self, [x, y, z]: [usize; 3]) -> f64 {
         let [nx, ny, _] = self.dims();
-        self.slope * self.voxels.get((z * ny + y) * nx + x) + self.intercept
+        self.voxels.get((z * ny + y) * nx + x)
     }
 }
 

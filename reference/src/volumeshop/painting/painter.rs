@@ -7,8 +7,7 @@ use crate::field::{Field, FieldError, Reconstruction, Rung, Sampler};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::memory::NoRoom;
 use drypoint_scene::tables::{Brush, Connectivity, PaintMode};
-use drypoint_scene::volume::{Access, Selection, ShownValues, Volume, Voxel};
-use drypoint_scene::with_access;
+use drypoint_scene::volume::{Selection, ShownValues, Volume};
 
 /// One dab of a brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,17 +110,15 @@ impl<'a> Painter<'a> {
         }
         let (first, end) = (lo.to_array().map(|i| i as usize), hi.to_array().map(|i| i as usize + 1));
         let mut voxels = 0;
-        let bricks = with_access!(self.volume, |access| {
-            selection.memberships.modify(first, end, |voxel, f| {
-                let offset = grid.axes() * (DVec3::from_array(voxel.map(|i| i as f64)) - centre);
-                match membership(dab.brush, offset, dab.radius) {
-                    Some(b) if self.shows(access, voxel) => {
-                        voxels += 1;
-                        composed(dab.mode, f, b)
-                    }
-                    _ => f,
+        let bricks = selection.memberships.modify(first, end, |voxel, f| {
+            let offset = grid.axes() * (DVec3::from_array(voxel.map(|i| i as f64)) - centre);
+            match membership(dab.brush, offset, dab.radius) {
+                Some(b) if self.shows(voxel) => {
+                    voxels += 1;
+                    composed(dab.mode, f, b)
                 }
-            })
+                _ => f,
+            }
         })?;
         Ok(Painted { voxels, bricks })
     }
@@ -133,13 +130,8 @@ impl<'a> Painter<'a> {
     pub fn grow(&self, selection: &mut Selection, growth: &Growth) -> Result<Painted, PaintError> {
         let seed = self.seed(growth.at, 0)?;
         let (dims, value) = (self.volume.dims(), self.volume.value(seed));
-        let (slope, intercept) = (self.volume.slope(), self.volume.intercept());
-        let region = with_access!(self.volume, |access| {
-            grown(dims, seed, growth.connect, |voxel| {
-                let [x, y, z] = voxel;
-                let difference = slope * access.at(x, y, z).to_f64() + intercept - value;
-                difference.abs() <= growth.tolerance && self.shows(access, voxel)
-            })
+        let region = grown(dims, seed, growth.connect, |voxel| {
+            (self.volume.value(voxel) - value).abs() <= growth.tolerance && self.shows(voxel)
         })?;
         let [first, end] = region.bounds();
         let change = |voxel, f| if region.has(voxel) { composed(growth.mode, f, 1.0) } else { f };
@@ -176,8 +168,7 @@ impl<'a> Painter<'a> {
             markers.push(Marker { voxel: self.seed(seed.at, i)?, basin: i as u32 + 1 });
         }
         let dims = self.volume.dims();
-        let basins =
-            with_access!(self.volume, |access| basins(dims, &markers, &|voxel| self.shows(access, voxel), relief))?;
+        let basins = basins(dims, &markers, &|voxel| self.shows(voxel), relief)?;
         let voxels = basins.iter().filter(|&&basin| basin > 0).count();
         let change = |[x, y, z]: [usize; 3], f| match basins[(z * dims[1] + y) * dims[0] + x].checked_sub(1) {
             Some(seed) => composed(seeds[seed as usize].mode, f, 1.0),
@@ -195,15 +186,12 @@ impl<'a> Painter<'a> {
             return Err(PaintError::Outside(place));
         }
         let voxel = index.to_array().map(|i| i as usize);
-        let is_shown = with_access!(self.volume, |access| self.shows(access, voxel));
-        if is_shown { Ok(voxel) } else { Err(PaintError::Hidden(place)) }
+        if self.shows(voxel) { Ok(voxel) } else { Err(PaintError::Hidden(place)) }
     }
 
     /// Whether a voxel is shown.
-    #[inline]
-    fn shows(&self, access: impl Access, voxel: [usize; 3]) -> bool {
-        let [x, y, z] = voxel;
-        self.shown.has(access.at(x, y, z).to_f64()) && !self.volume.mask().is_some_and(|mask| mask.voxel(voxel))
+    fn shows(&self, voxel: [usize; 3]) -> bool {
+        self.shown.has(self.volume.stored(voxel)) && !self.volume.mask().is_some_and(|mask| mask.voxel(voxel))
     }
 }
 
