@@ -222,6 +222,8 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     sign: u64,
     /// The sign bits of the numbers in the lower half of a word.
     signs: u64,
+    /// The number that 0 is raised to.
+    zero: f64,
     to_world: Mat3<f64x8<S>>,
 }
 
@@ -282,7 +284,8 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         let to_world = splat(simd, &field.to_world);
         let sign = u64::from(is_signed) << (V::BITS - 1);
         let signs = if V::BITS == 8 { sign * 0x0101_0101 } else { sign * 0x0001_0001 };
-        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), sign, signs, to_world }
+        let zero = TO_BITS + sign as f64;
+        Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), sign, signs, zero, to_world }
     }
 
     /// The windows of side `N` that begin at some places in the order of voxels.
@@ -314,7 +317,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
     #[inline(always)]
     fn between(&self, a: f64x8<S>, b: f64x8<S>, w: f64x8<S>) -> f64x8<S> {
         // The formula of `lerp`: integers this small have exact differences.
-        (a - (TO_BITS + self.sign as f64)) + w * (b - a)
+        (a - self.zero) + w * (b - a)
     }
 
     /// The first `N` numbers in each word, all raised by the same integer: their differences are those of the numbers.

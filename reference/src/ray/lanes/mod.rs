@@ -33,7 +33,7 @@ use super::sample::Shader;
 use super::sample::need::Needs;
 use super::tile_work::TileWork;
 use crate::field::AnySampler;
-use crate::field::lanes::{EachReader, LANES, LaneReader, Packed, Reader};
+use crate::field::lanes::{EachReader, LANES, LaneReader, Packed};
 use crate::number::Vec3;
 use crate::number::lanes::{columns, rows, wide};
 use bytemuck::cast_slice;
@@ -123,18 +123,41 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     }
 }
 
-/// Casts the rays of packets through small whole numbers, of which the flag says whether they have a sign.
+/// Casts the rays of packets through small whole numbers, of which the flag says whether they have a sign. Each shader is
+/// compiled in a function of its own: the compiler's time grows faster than a function.
 fn run<V: Packed>(
     prepared: &Prepared<'_, f64>,
     packets: &mut [Packet<'_, '_>],
     (data, is_signed): (&[V], bool),
     counts: &mut Counts,
 ) {
-    if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {
-        simd.vectorize(
+    let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) else { return };
+    let field = &prepared.object.field;
+    match &prepared.object.shader {
+        Shader::Style(styled) => simd.vectorize(
             #[inline(always)]
-            || walk(simd, prepared, packets, LaneReader::new(simd, &prepared.object.field, data, is_signed), counts),
-        );
+            || cast_waiting(simd, packets, styled, LaneReader::new(simd, field, data, is_signed), counts),
+        ),
+        Shader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => simd.vectorize(
+            #[inline(always)]
+            || {
+                let reader = LaneReader::new(simd, field, data, is_signed);
+                for packet in packets {
+                    let mut shader = PhongShader::new(simd, packet, colors, phong);
+                    RayLanes::new(simd, packet, reader).run(packet, &mut shader, counts);
+                }
+            },
+        ),
+        Shader::Regular { colors, .. } => simd.vectorize(
+            #[inline(always)]
+            || {
+                let reader = LaneReader::new(simd, field, data, is_signed);
+                for packet in packets {
+                    RayLanes::new(simd, packet, reader).run(packet, &mut FlatShader { colors }, counts);
+                }
+            },
+        ),
+        Shader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
     }
 }
 
@@ -148,29 +171,6 @@ fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], counts
             #[inline(always)]
             || cast_waiting(simd, packets, styled, EachReader::new(simd, &prepared.object.field), counts),
         );
-    }
-}
-
-#[inline(always)]
-fn walk<S: Simd, F: Reader<S>>(
-    simd: S,
-    prepared: &Prepared<'_, f64>,
-    packets: &mut [Packet<'_, '_>],
-    reader: F,
-    counts: &mut Counts,
-) {
-    if let Shader::Style(styled) = &prepared.object.shader {
-        return cast_waiting(simd, packets, styled, reader, counts);
-    }
-    for packet in packets {
-        let walk = RayLanes::new(simd, packet, reader);
-        match &prepared.object.shader {
-            Shader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => {
-                walk.run(packet, &mut PhongShader::new(simd, packet, colors, phong), counts);
-            }
-            Shader::Regular { colors, .. } => walk.run(packet, &mut FlatShader { colors }, counts),
-            Shader::Style(_) | Shader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
-        }
     }
 }
 

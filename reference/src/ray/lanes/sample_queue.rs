@@ -277,36 +277,41 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
         vector(self.simd, p)
     }
 
-    /// Shows samples and lays them behind what is in front of them.
-    #[inline(always)]
+    /// Shows samples and lays them behind what is in front of them. Two places call it, so it is compiled apart from them.
+    #[inline(never)]
     fn show_batch(&self, batch: &Batch<S>, look: &mut StyleShader<'_, S>, fronts: &mut Fronts, counts: &mut Counts) {
-        let simd = self.simd;
-        let ShadedLanes { rgb: [r, g, b], alpha, ratio, counted } = look.show(self, batch);
-        let corrected: [f64; LANES] = if batch.asked.count_ones() > 2 {
-            correct(alpha, ratio).into()
-        } else {
-            let mut corrected = [0.0; LANES];
-            for lane in 0..batch.asked.count_ones() as usize {
-                corrected[lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
-            }
-            corrected
-        };
-        let k: [f64; LANES] = batch.k.into();
-        let rows = rows([r, g, b, f64x8::splat(simd, 1.0)]);
-        let mut shown = 0;
-        for lane in 0..batch.asked.count_ones() as usize {
-            let ray = usize::from(batch.rays[lane]) % RAYS;
-            if k[lane] > fronts.farthest[ray] {
-                continue;
-            }
-            shown |= 1 << lane;
-            let [r, g, b, _] = rows[lane].into();
-            let front = &mut fronts.of_ray[ray];
-            front.over([r, g, b], corrected[lane]);
-            if front.opacity >= self.prepared.stop_at {
-                fronts.farthest[ray] = k[lane];
-            }
-        }
-        counted.add(shown, counts);
+        self.simd.vectorize(
+            #[inline(always)]
+            || {
+                let simd = self.simd;
+                let ShadedLanes { rgb: [r, g, b], alpha, ratio, counted } = look.show(self, batch);
+                let corrected: [f64; LANES] = if batch.asked.count_ones() > 2 {
+                    correct(alpha, ratio).into()
+                } else {
+                    let mut corrected = [0.0; LANES];
+                    for lane in 0..batch.asked.count_ones() as usize {
+                        corrected[lane] = Correction::new(ratio[lane]).apply(alpha[lane]);
+                    }
+                    corrected
+                };
+                let k: [f64; LANES] = batch.k.into();
+                let rows = rows([r, g, b, f64x8::splat(simd, 1.0)]);
+                let mut shown = 0;
+                for lane in 0..batch.asked.count_ones() as usize {
+                    let ray = usize::from(batch.rays[lane]) % RAYS;
+                    if k[lane] > fronts.farthest[ray] {
+                        continue;
+                    }
+                    shown |= 1 << lane;
+                    let [r, g, b, _] = rows[lane].into();
+                    let front = &mut fronts.of_ray[ray];
+                    front.over([r, g, b], corrected[lane]);
+                    if front.opacity >= self.prepared.stop_at {
+                        fronts.farthest[ray] = k[lane];
+                    }
+                }
+                counted.add(shown, counts);
+            },
+        );
     }
 }
