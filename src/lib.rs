@@ -14,12 +14,15 @@
 //! | the place that is seen at a pixel | [`picking::pick_pixel`] |
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
 //! | what its accuracy costs | [`cost::sweep`] |
+//! | all of the command | `command::run` |
 //!
 //! The programs in `examples/` render into a buffer, write dots as SVG, make a volume from a formula, and compare two
 //! pictures.
 //!
 //! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
+#[cfg(feature = "command")]
+pub mod command;
 pub mod cost;
 pub mod drawing;
 pub mod failure;

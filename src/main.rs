@@ -1,9 +1,7 @@
 //! The `drypoint` command.
 
-mod command;
-
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    command::run(std::env::args_os())
+    drypoint::command::run(std::env::args_os())
 }

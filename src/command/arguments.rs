@@ -2,9 +2,9 @@
 //! three lines.
 
 use super::Cli;
+use crate::Failure;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use drypoint::Failure;
 use std::ffi::OsString;
 use std::path::Path;
 

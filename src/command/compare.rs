@@ -2,13 +2,13 @@
 
 use super::report::{print, print_json};
 use super::{Done, Outcome, Talk, output_path, report};
+use crate::output::compare::difference::difference_picture;
+use crate::output::compare::{self, CompareOptions, ErrorLimits, flip};
+use crate::output::read::read_image;
+use crate::output::{OutputError, png};
+use crate::scene::picture::Provenance;
+use crate::{Failure, Failures, Format};
 use clap::Args;
-use drypoint::output::compare::difference::difference_picture;
-use drypoint::output::compare::{self, CompareOptions, ErrorLimits, flip};
-use drypoint::output::read::read_image;
-use drypoint::output::{OutputError, png};
-use drypoint::scene::picture::Provenance;
-use drypoint::{Failure, Failures, Format};
 use std::path::PathBuf;
 
 /// Compare two pictures: largest and RMS difference of every layer, and FLIP of the colours.

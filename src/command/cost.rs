@@ -3,10 +3,10 @@
 use super::input::{self, SceneOverrides, SetArgs, TemplateArgs};
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk, graphics, output_path};
+use crate::Failure;
+use crate::cost::{SweepFormat, SweepOptions, csv, sweep};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use drypoint::Failure;
-use drypoint::cost::{SweepFormat, SweepOptions, csv, sweep};
 use std::path::PathBuf;
 
 /// Measure the error and the time of every accuracy setting of a scene, from coarse to fine.

@@ -2,11 +2,11 @@
 
 use super::Talk;
 use super::report::note;
-use drypoint::drawing::Frame;
-use drypoint::job::Job;
-use drypoint::scene::counts::Counts;
-use drypoint::scene::shot::OutOfSight;
-use drypoint::scene::tables::{HatchIso, Hatching, Hidden, Iso, Outlines, Spacing};
+use crate::drawing::Frame;
+use crate::job::Job;
+use crate::scene::counts::Counts;
+use crate::scene::shot::OutOfSight;
+use crate::scene::tables::{HatchIso, Hatching, Hidden, Iso, Outlines, Spacing};
 
 /// Warns if the first frame shows nothing. `made` is the counts of preparation and of the frame.
 pub(super) fn warn_of_nothing(job: &Job, frame: &Frame, made: [&Counts; 2], talk: Talk) {

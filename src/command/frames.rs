@@ -5,14 +5,14 @@ use super::input::{self, SceneOverrides};
 use super::report::{Progress, note};
 use super::stats::{FrameTimes, cpu_seconds};
 use super::{Talk, output_path};
-use drypoint::drawing::{Drawing, room_for_page, write_animation};
-use drypoint::gpu::Gpu;
-use drypoint::job::Job;
-use drypoint::marking::Marking;
-use drypoint::scene::counts::Counts;
-use drypoint::scene::picture::Picture;
-use drypoint::scene::tables::Scene;
-use drypoint::{Failure, Failures, Format};
+use crate::drawing::{Drawing, room_for_page, write_animation};
+use crate::gpu::Gpu;
+use crate::job::Job;
+use crate::marking::Marking;
+use crate::scene::counts::Counts;
+use crate::scene::picture::Picture;
+use crate::scene::tables::Scene;
+use crate::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -243,7 +243,7 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
 #[cfg(test)]
 mod tests {
     use super::*;
-    use drypoint::scene::file::{Overrides, parse};
+    use crate::scene::file::{Overrides, parse};
 
     fn files(name: &str, rest: &str) -> Result<FrameFiles, Failure> {
         let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");

@@ -1,8 +1,8 @@
 //! The graphics card of a command, where the command is built with one.
 
 use super::Talk;
-use drypoint::Failure;
-use drypoint::gpu::Gpu;
+use crate::Failure;
+use crate::gpu::Gpu;
 
 /// Opens the adapter, and notes which one it is. With `fast` its texture unit interpolates between voxels.
 ///
@@ -10,8 +10,8 @@ use drypoint::gpu::Gpu;
 /// No adapter, or a command that was built without graphics.
 #[cfg(feature = "gpu")]
 pub(super) fn open(talk: Talk, fast: bool) -> Result<Gpu, Failure> {
-    use drypoint::gpu::Interpolation;
-    let gpu = drypoint::gpu::open(if fast { Interpolation::Fast } else { Interpolation::Exact })?;
+    use crate::gpu::Interpolation;
+    let gpu = crate::gpu::open(if fast { Interpolation::Fast } else { Interpolation::Exact })?;
     if talk.verbose || gpu.is_software() {
         super::report::note(talk, format_args!("graphics: {}", gpu.describe()));
     }
@@ -35,13 +35,13 @@ pub(super) fn open(_: Talk, _: bool) -> Result<Gpu, Failure> {
 /// # Errors
 /// Same errors as [`open`].
 pub(super) fn knob(talk: Talk, only: &[String]) -> Result<Vec<(&'static str, Gpu)>, Failure> {
-    if only.iter().all(|key| key != drypoint::cost::BACKEND) {
+    if only.iter().all(|key| key != crate::cost::BACKEND) {
         return Ok(Vec::new());
     }
     let gpu = open(talk, false)?;
     #[cfg(feature = "gpu")]
     {
-        let fast = gpu.interpolating(drypoint::gpu::Interpolation::Fast).ok().map(|fast| ("gpu-fast", fast));
+        let fast = gpu.interpolating(crate::gpu::Interpolation::Fast).ok().map(|fast| ("gpu-fast", fast));
         Ok(fast.into_iter().chain([("gpu", gpu)]).collect())
     }
     #[cfg(not(feature = "gpu"))]

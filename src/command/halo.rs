@@ -2,13 +2,13 @@
 
 use super::report::note;
 use super::{Done, Outcome, Talk, output_path};
+use crate::halo::{HaloFigure, IntensityMap};
+use crate::output::{exr, png};
+use crate::reference::volumetric_halos::{Border, Process, SpreadParams};
+use crate::scene::picture::{Layer, LayerKind, Picture, Provenance};
+use crate::{Failure, Format};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
-use drypoint::halo::{HaloFigure, IntensityMap};
-use drypoint::output::{exr, png};
-use drypoint::reference::volumetric_halos::{Border, Process, SpreadParams};
-use drypoint::scene::picture::{Layer, LayerKind, Picture, Provenance};
-use drypoint::{Failure, Format};
 use std::path::PathBuf;
 
 /// Passes at the most: 4095 pixels of reach.

@@ -3,8 +3,8 @@
 use super::raw::RawArgs;
 use super::report::{Progress, print, print_json};
 use super::{Outcome, Talk};
+use crate::scene::volume::info;
 use clap::Args;
-use drypoint::scene::volume::info;
 use std::path::PathBuf;
 
 /// Describe a volume file: size, type, spacing, range, invalid voxels, histogram.

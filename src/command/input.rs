@@ -3,13 +3,13 @@
 use super::Talk;
 use super::raw::{self, layout};
 use super::report::{note, say};
-use drypoint::job::{Job, RenderTarget, bare, bare_for};
-use drypoint::scene::counts::Counts;
-use drypoint::scene::file::{self, Fault, Faults, Overrides, Place};
-use drypoint::scene::picture::LayerKind;
-use drypoint::scene::tables::{RawLayout, Scene, VolumeSource};
-use drypoint::scene::volume::{Volume, read};
-use drypoint::{Failure, Failures};
+use crate::job::{Job, RenderTarget, bare, bare_for};
+use crate::scene::counts::Counts;
+use crate::scene::file::{self, Fault, Faults, Overrides, Place};
+use crate::scene::picture::LayerKind;
+use crate::scene::tables::{RawLayout, Scene, VolumeSource};
+use crate::scene::volume::{Volume, read};
+use crate::{Failure, Failures};
 use std::path::{Path, PathBuf};
 
 /// The options `--set key=value` of a verb.

@@ -1,8 +1,8 @@
 //! The options `--threads` and `--memory`.
 
+use crate::Failure;
+use crate::scene::memory;
 use clap::builder::RangedU64ValueParser;
-use drypoint::Failure;
-use drypoint::scene::memory;
 
 /// Resource limits of every verb.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]

@@ -31,9 +31,9 @@ mod styles;
 mod validate;
 mod wedge;
 
+use crate::Failures;
 use arguments::Arguments;
 use clap::{Args, Parser, Subcommand};
-use drypoint::Failures;
 use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -129,7 +129,7 @@ const NOT_PROVEN: u8 = 3;
 
 /// Runs a command line. Exit codes: 0 done, 1 a comparison failed, 2 bad use or bad input, 3 a comparison proved nothing,
 /// 128 + n ended by signal n.
-pub(crate) fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+pub fn run(words: impl IntoIterator<Item = OsString>) -> ExitCode {
     signals::remove_unfinished_at_the_end();
     match parsed(words) {
         Ok(Ok(cli)) => exit_code(cli.run()),

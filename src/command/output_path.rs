@@ -1,11 +1,11 @@
 //! Output paths, checked before any work.
 
 use super::frames::FrameFiles;
-use drypoint::output::atomic;
-use drypoint::scene::tables::Scene;
-use drypoint::scene::volume::read;
-use drypoint::scene::volume::write::WriteError;
-use drypoint::{Failure, Format};
+use crate::output::atomic;
+use crate::scene::tables::Scene;
+use crate::scene::volume::read;
+use crate::scene::volume::write::WriteError;
+use crate::{Failure, Format};
 use std::path::{Path, PathBuf};
 
 /// Returns the name of an input without folder and suffix: `head` of `ct/head.nii.gz`, `my.scene` of `my.scene.toml`.
@@ -56,8 +56,7 @@ pub(super) fn volume(path: &Path, what: &str) -> Result<(), Failure> {
         let what = format!("{what} is written as NRRD");
         return Err(Failure::new(what, path.display(), "give a name that ends in .nrrd"));
     }
-    drypoint::scene::atomic::check(path)
-        .map_err(|source| Failure::from(WriteError { file: path.to_path_buf(), source }))
+    crate::scene::atomic::check(path).map_err(|source| Failure::from(WriteError { file: path.to_path_buf(), source }))
 }
 
 /// Writes a file that is no picture of a scene, whole or not at all.

@@ -3,11 +3,11 @@
 use super::input::{self, SceneOverrides, SetArgs, TemplateArgs};
 use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, output_path};
+use crate::Failure;
+use crate::job::{Job, Painting};
+use crate::scene::volume::bricked::SIDE;
+use crate::scene::volume::write::write_nrrd;
 use clap::Args;
-use drypoint::Failure;
-use drypoint::job::{Job, Painting};
-use drypoint::scene::volume::bricked::SIDE;
-use drypoint::scene::volume::write::write_nrrd;
 use std::path::PathBuf;
 
 /// Write the selection that the strokes of an object paint, as NRRD.

@@ -2,14 +2,14 @@
 
 use super::report::{Progress, note, print};
 use super::{Done, Outcome, Talk, output_path};
+use crate::Failure;
+use crate::scene::phantom;
+use crate::scene::phantom::PhantomError;
+use crate::scene::tables::PhantomSource;
+use crate::scene::volume::VoxelType;
+use crate::scene::volume::write::write_nrrd;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use drypoint::Failure;
-use drypoint::scene::phantom;
-use drypoint::scene::phantom::PhantomError;
-use drypoint::scene::tables::PhantomSource;
-use drypoint::scene::volume::VoxelType;
-use drypoint::scene::volume::write::write_nrrd;
 use std::path::PathBuf;
 
 /// Write a test volume with known values and curvatures, as NRRD.

@@ -3,10 +3,10 @@
 use super::input::{self, SceneOverrides, SetArgs, TemplateArgs};
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
+use crate::Failure;
+use crate::scene::file::write_full;
+use crate::stippling::Stippling;
 use clap::Args;
-use drypoint::Failure;
-use drypoint::scene::file::write_full;
-use drypoint::stippling::Stippling;
 use std::path::PathBuf;
 
 /// List the work that a scene needs, and the keys that ask for it.

@@ -4,8 +4,8 @@ use super::input::{SetArgs, TemplateArgs};
 use super::page::PageRequest;
 use super::raw::RawArgs;
 use super::{Outcome, Talk};
+use crate::job::RenderTarget;
 use clap::Args;
-use drypoint::job::RenderTarget;
 use std::path::PathBuf;
 
 /// Draw a scene or a bare volume in stipples, or convert a saved list of dots.

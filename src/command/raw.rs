@@ -1,9 +1,9 @@
 //! The option `--raw`: the layout of voxels without a header or sidecar ([IO-1]).
 
 use super::input::{self, KeyFlag, SetArgs};
-use drypoint::scene::tables::{RawLayout, VolumeSource};
-use drypoint::scene::volume::{Volume, read};
-use drypoint::{Failure, Failures};
+use crate::scene::tables::{RawLayout, VolumeSource};
+use crate::scene::volume::{Volume, read};
+use crate::{Failure, Failures};
 use std::path::Path;
 
 /// The scene key that `--raw` stands for.

@@ -7,9 +7,9 @@ use super::raw::RawArgs;
 use super::report::{note, print};
 use super::stats;
 use super::{Done, Outcome, Talk, graphics};
+use crate::{Failure, Format};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
-use drypoint::{Failure, Format};
 use std::path::PathBuf;
 
 /// Render a scene or a bare volume to a picture.

@@ -1,8 +1,8 @@
 //! Output of the command: standard output, notes on standard error, progress.
 
 use super::{Done, Outcome, Talk};
-use drypoint::Failure;
-use drypoint::scene::unprintable::is_unprintable;
+use crate::Failure;
+use crate::scene::unprintable::is_unprintable;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::sync::atomic::{AtomicU64, Ordering};

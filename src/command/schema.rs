@@ -9,6 +9,6 @@ pub(super) struct SchemaArgs {}
 
 impl SchemaArgs {
     pub(super) fn run(self) -> Outcome {
-        print_json(serde_json::to_string_pretty(&drypoint::scene::file::schema()))
+        print_json(serde_json::to_string_pretty(&crate::scene::file::schema()))
     }
 }

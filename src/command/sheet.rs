@@ -4,13 +4,13 @@ use super::frames;
 use super::input::{self, SceneOverrides, SetArgs};
 use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, output_path};
+use crate::output::png;
+use crate::output::read::{Image, read_image};
+use crate::output::sheet::{Layout, sheet};
+use crate::scene::picture::Provenance;
+use crate::{Failure, Failures, Format};
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use drypoint::output::png;
-use drypoint::output::read::{Image, read_image};
-use drypoint::output::sheet::{Layout, sheet};
-use drypoint::scene::picture::Provenance;
-use drypoint::{Failure, Failures, Format};
 use std::path::{Path, PathBuf};
 
 /// Write a contact sheet of volumes, scenes or pictures. Volumes and scenes are rendered.

@@ -1,6 +1,6 @@
 //! Signals that end the command. No unfinished file stays.
 
-use drypoint::scene::atomic;
+use crate::scene::atomic;
 #[cfg(unix)]
 use std::sync::{Arc, atomic::AtomicBool};
 

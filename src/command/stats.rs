@@ -1,8 +1,8 @@
 //! The JSON object of `--stats` ([PLAN-2]).
 
-use drypoint::Failure;
-use drypoint::cost::median;
-use drypoint::scene::counts::Counts;
+use crate::Failure;
+use crate::cost::median;
+use crate::scene::counts::Counts;
 use serde_json::{Map, Value, json};
 
 /// Times of the frames of `--repeat`.

@@ -4,9 +4,9 @@ use super::input::{SetArgs, TemplateArgs};
 use super::page::PageRequest;
 use super::raw::RawArgs;
 use super::{Done, Outcome, Talk};
+use crate::Failure;
+use crate::job::RenderTarget;
 use clap::Args;
-use drypoint::Failure;
-use drypoint::job::RenderTarget;
 use std::path::PathBuf;
 
 /// Draw the visible strokes of a scene or a bare volume, or convert a saved list of strokes.

@@ -5,15 +5,15 @@ mod lighting;
 
 use super::report::{note, print};
 use super::{Done, Outcome, Talk, output_path};
+use crate::output::png;
+use crate::output::read::Image;
+use crate::output::sheet::{Layout, sheet};
+use crate::reference::style_transfer_functions::preview;
+use crate::scene::picture::Provenance;
+use crate::scene::style::{StyleError, Theme};
+use crate::scene::tables::StyleSource;
+use crate::{Failure, Failures, Format};
 use clap::{Args, Subcommand};
-use drypoint::output::png;
-use drypoint::output::read::Image;
-use drypoint::output::sheet::{Layout, sheet};
-use drypoint::reference::style_transfer_functions::preview;
-use drypoint::scene::picture::Provenance;
-use drypoint::scene::style::{StyleError, Theme};
-use drypoint::scene::tables::StyleSource;
-use drypoint::{Failure, Failures, Format};
 use std::path::PathBuf;
 
 /// Pixels across a sphere of the sheet.

@@ -40,16 +40,16 @@ impl ValidateArgs {
     }
 
     #[cfg(feature = "gpu")]
-    fn compare(self, gpu: &drypoint::gpu::Gpu, talk: Talk) -> Outcome {
+    fn compare(self, gpu: &crate::gpu::Gpu, talk: Talk) -> Outcome {
         use super::input::{self, SceneOverrides};
         use super::report::{note, print, print_json};
         use super::{Done, output_path};
-        use drypoint::output::compare::difference::difference_picture;
-        use drypoint::output::compare::{CompareOptions, flip};
-        use drypoint::output::png;
-        use drypoint::scene::picture::Provenance;
-        use drypoint::validate::{Validation, Verdict};
-        use drypoint::{Failure, Format};
+        use crate::output::compare::difference::difference_picture;
+        use crate::output::compare::{CompareOptions, flip};
+        use crate::output::png;
+        use crate::scene::picture::Provenance;
+        use crate::validate::{Validation, Verdict};
+        use crate::{Failure, Format};
 
         /// The comparison as JSON.
         #[derive(serde::Serialize)]
@@ -70,10 +70,10 @@ impl ValidateArgs {
         let mut over = SceneOverrides::new(&self.set, flags)?;
         over.volume = self.template.volume;
         let job = input::find(Some(&self.input), &over)?.load(over.target)?;
-        let found = drypoint::validate::validate(&job, gpu)?;
+        let found = crate::validate::validate(&job, gpu)?;
         if let Some(path) = &self.output {
             let say = |error| Failure::picture(&error, path.display());
-            let [a, b] = found.pictures.each_ref().map(drypoint::output::read::Image::from);
+            let [a, b] = found.pictures.each_ref().map(crate::output::read::Image::from);
             let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree).map_err(say)?;
             png::write_png(&difference_picture(&map), 8, &Provenance::default(), path).map_err(say)?;
             note(talk, path.display());

@@ -3,17 +3,17 @@
 use super::input::{self, SetArgs};
 use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, output_path};
+use crate::drawing::write_page;
+use crate::format::Format;
+use crate::job::RenderTarget;
+use crate::scene::marks::{Page, Pen};
+use crate::scene::memory;
+use crate::scene::tables::Scene;
+use crate::scene::tone::Tone;
+use crate::stippling::tone;
+use crate::wedge::{template, wedge};
+use crate::{Failure, Failures, tone_plot};
 use clap::Args;
-use drypoint::drawing::write_page;
-use drypoint::format::Format;
-use drypoint::job::RenderTarget;
-use drypoint::scene::marks::{Page, Pen};
-use drypoint::scene::memory;
-use drypoint::scene::tables::Scene;
-use drypoint::scene::tone::Tone;
-use drypoint::stippling::tone;
-use drypoint::wedge::{template, wedge};
-use drypoint::{Failure, Failures, tone_plot};
 use std::path::{Path, PathBuf};
 
 /// Write a step wedge to calibrate a pen, with a table for its measured tones, or plot such a table.

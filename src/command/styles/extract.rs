@@ -2,14 +2,14 @@
 
 use super::super::report::note;
 use super::super::{Done, Outcome, Talk, output_path};
+use crate::output::{OutputError, png};
+use crate::reference::style_transfer_functions::extract::{Region, extract};
+use crate::scene::memory;
+use crate::scene::picture::Provenance;
+use crate::scene::style::{MAX_SIDE, SourcePicture};
+use crate::{Failure, Format};
 use clap::builder::RangedU64ValueParser;
 use clap::{ArgGroup, Args};
-use drypoint::output::{OutputError, png};
-use drypoint::reference::style_transfer_functions::extract::{Region, extract};
-use drypoint::scene::memory;
-use drypoint::scene::picture::Provenance;
-use drypoint::scene::style::{MAX_SIDE, SourcePicture};
-use drypoint::{Failure, Format};
 use std::path::{Path, PathBuf};
 
 /// Make a style from a sphere, an ellipsoid or another closed shape in a picture.

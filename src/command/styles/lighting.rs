@@ -2,18 +2,18 @@
 
 use super::super::report::{note, print};
 use super::super::{Done, Outcome, Talk, output_path};
+use crate::output::png;
+use crate::output::read::Image;
+use crate::output::sheet::{Layout, sheet};
+use crate::reference::volumeshop::preview;
+use crate::scene::glam::DVec3;
+use crate::scene::lighting::{ContourRule, LightingModel, LightingPreset};
+use crate::scene::picture::Provenance;
+use crate::scene::shot::{LightingParams, LightingSource};
+use crate::scene::tables::Shading;
+use crate::{Failure, Format};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
-use drypoint::output::png;
-use drypoint::output::read::Image;
-use drypoint::output::sheet::{Layout, sheet};
-use drypoint::reference::volumeshop::preview;
-use drypoint::scene::glam::DVec3;
-use drypoint::scene::lighting::{ContourRule, LightingModel, LightingPreset};
-use drypoint::scene::picture::Provenance;
-use drypoint::scene::shot::{LightingParams, LightingSource};
-use drypoint::scene::tables::Shading;
-use drypoint::{Failure, Format};
 use std::path::PathBuf;
 use std::sync::Arc;
 
