@@ -47,31 +47,37 @@ pub fn one_minus_root(alpha: f64) -> f64 {
 }
 
 /// e^x.
+#[inline]
 pub fn exp(x: f64) -> f64 {
     libm::exp(x)
 }
 
 /// e^x − 1 without cancellation at small x.
+#[inline]
 pub fn exp_m1(x: f64) -> f64 {
     libm::expm1(x)
 }
 
 /// Natural logarithm.
+#[inline]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)
 }
 
 /// ln(1 + x) without cancellation at small x.
+#[inline]
 pub fn ln_1p(x: f64) -> f64 {
     libm::log1p(x)
 }
 
 /// Logarithm to base 2.
+#[inline]
 pub fn log2(x: f64) -> f64 {
     libm::log2(x)
 }
 
 /// x^y. A whole exponent up to 64 in magnitude is repeated squaring in a fixed order ([PREC-4]).
+#[inline]
 pub fn pow(x: f64, y: f64) -> f64 {
     if y == (y as i32) as f64 && y.abs() <= 64.0 {
         let p = pow_whole(x, 1.0, y.abs() as u32);
@@ -82,6 +88,7 @@ pub fn pow(x: f64, y: f64) -> f64 {
 }
 
 /// The cube root, of negative numbers too.
+#[inline]
 pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
@@ -101,11 +108,13 @@ pub fn pow_whole<T: Copy + Mul<Output = T>>(x: T, one: T, mut n: u32) -> T {
 }
 
 /// Sine of an angle in radians.
+#[inline]
 pub fn sin(x: f64) -> f64 {
     libm::sin(x)
 }
 
 /// Cosine of an angle in radians.
+#[inline]
 pub fn cos(x: f64) -> f64 {
     libm::cos(x)
 }
@@ -116,6 +125,7 @@ pub fn tan(x: f64) -> f64 {
 }
 
 /// Angle of the point (x, y) from the x axis, in radians, in (−π, π].
+#[inline]
 pub fn atan2(y: f64, x: f64) -> f64 {
     libm::atan2(y, x)
 }
@@ -126,11 +136,13 @@ pub fn tanh(x: f64) -> f64 {
 }
 
 /// √(x² + y²) without overflow.
+#[inline]
 pub fn hypot(x: f64, y: f64) -> f64 {
     libm::hypot(x, y)
 }
 
 /// x · 2^n, exact as long as the result is normal.
+#[inline]
 pub fn scale_by_power_of_two(x: f64, n: i32) -> f64 {
     libm::ldexp(x, n)
 }

@@ -67,6 +67,7 @@ impl Grid {
     }
 
     /// Voxels along x, y, z.
+    #[inline]
     pub fn dims(&self) -> [usize; 3] {
         self.dims
     }
@@ -82,6 +83,7 @@ impl Grid {
     }
 
     /// D: columns are axis directions times spacing.
+    #[inline]
     pub fn axes(&self) -> DMat3 {
         self.axes
     }
@@ -93,6 +95,7 @@ impl Grid {
     }
 
     /// World position of voxel (0, 0, 0).
+    #[inline]
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
@@ -129,6 +132,7 @@ impl Grid {
     }
 
     /// One voxel: the smallest spacing, axes of length 1 not counted unless all are ([SPACE-5]).
+    #[inline]
     pub fn voxel(&self) -> f64 {
         let spacing = self.spacing();
         let longer = |axis: &usize| self.dims[*axis] > 1;

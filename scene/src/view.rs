@@ -85,6 +85,7 @@ impl View {
 
     /// The ray through a point of the picture, in pixels from the top left corner: the centre of pixel (i, j) is
     /// (i + ½, j + ½).
+    #[inline]
     pub fn ray(&self, i: f64, j: f64) -> Ray {
         let x = (i - self.size[0] as f64 / 2.0) * self.pixel;
         let y = (self.size[1] as f64 / 2.0 - j) * self.pixel;
@@ -100,6 +101,7 @@ impl View {
 
     /// The point of the picture at which a world position is seen, as [`ray`](Self::ray) counts points; none where it is not
     /// in front of the eye.
+    #[inline]
     pub fn point_of(&self, p: DVec3) -> Option<[f64; 2]> {
         let p = self.to_eye(p);
         let depth = if self.perspective { -p.z } else { 1.0 };
@@ -108,6 +110,7 @@ impl View {
     }
 
     /// World to eye space, for directions.
+    #[inline]
     pub fn direction_to_eye(&self, d: DVec3) -> DVec3 {
         DVec3::new(d.dot(self.right), d.dot(self.up), -d.dot(self.forward))
     }
@@ -118,6 +121,7 @@ impl View {
     }
 
     /// World position to eye space.
+    #[inline]
     pub fn to_eye(&self, p: DVec3) -> DVec3 {
         self.direction_to_eye(p - self.eye)
     }

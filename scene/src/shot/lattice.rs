@@ -33,6 +33,7 @@ impl Lattice {
     }
 
     /// The smallest k of a sample beyond `near`.
+    #[inline]
     pub fn first(&self, view: &View) -> i64 {
         if view.perspective { first_beyond(self.near, self.step) } else { i64::MIN }
     }

@@ -157,6 +157,7 @@ impl Function {
     }
 
     /// i of each entry of a table and the number N of nodes, where the function is one.
+    #[inline]
     pub fn table(&self) -> Option<(&[f64], usize)> {
         let (index, nodes) = match self {
             Self::Style { nodes, .. } => (&nodes.index, nodes.color.len()),
@@ -166,6 +167,7 @@ impl Function {
     }
 
     /// The positions and opacities of the nodes, or of a table's entries, and their rows.
+    #[inline]
     pub fn nodes(&self) -> (&[f64], &[f64], Option<&Rows>) {
         match self {
             Self::Style { nodes: Nodes { at, opacity, rows, .. }, .. } => (at, opacity, rows.as_ref()),

@@ -47,6 +47,7 @@ impl Mask {
     ///
     /// # Panics
     /// If it lies outside the volume.
+    #[inline]
     pub fn voxel(&self, [x, y, z]: [usize; 3]) -> bool {
         bit(&self.voxels, (z * self.dims[1] + y) * self.dims[0] + x)
     }

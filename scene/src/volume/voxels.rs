@@ -80,6 +80,7 @@ macro_rules! voxel_types {
             ///
             /// # Panics
             /// If the index is out of range.
+            #[inline]
             pub fn get(&self, i: usize) -> f64 {
                 match self { $(Self::$variant(v) => v[i].to_f64(),)* }
             }
