@@ -96,9 +96,10 @@ fn a_preset_of_a_bare_volume() {
     let folder = Folder::new();
     folder.good("phantom torus --size 16 --type u8 -o torus.nrrd -q");
     for preset in ["toon", "stipple", "outline", "hatch", "halo", "halo-glow", "halo-lines"] {
-        let said = folder.good(&format!("plan torus.nrrd --preset {preset} --full"));
+        let scene = format!("torus.nrrd --preset {preset} --set picture.size=[90,60]");
+        let said = folder.good(&format!("plan {scene} --full"));
         folder.write("said.toml", said);
-        folder.good(&format!("render torus.nrrd --preset {preset} -o a.png -q"));
+        folder.good(&format!("render {scene} -o a.png -q"));
         folder.good("render said.toml -o b.png -q");
         let [a, b] = ["a.png", "b.png"].map(|name| folder.read(name));
         assert!(a.len() > 500, "{preset}");

@@ -25,7 +25,7 @@ fn pages_do_not_depend_on_threads() {
     folder.good("phantom torus --size 20 --type u8 -o ring.nrrd -q");
     for verb in ["strokes", "points"] {
         let page = |name: &str, more: &str| {
-            folder.good(&format!("{verb} ring.nrrd -o {name}.csv -q {more}"));
+            folder.good(&format!("{verb} ring.nrrd --set picture.width=\"40mm\" -o {name}.csv -q {more}"));
             folder.read(&format!("{name}.csv"))
         };
         let first = page("a", "");
