@@ -1,7 +1,7 @@
 //! Drawing of hatching for a camera: as strokes fall ([HATCH-13]), or evenly on the page ([HATCH-19]).
 
 use super::growth_counts::{add, count_kept};
-use super::{GrownHatching, GrownStrokes, HatchingSetup};
+use super::{GrownHatching, GrownStrokes, HatchingSetup, SHORTEST};
 use crate::stroking::StrokeCamera;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
@@ -21,9 +21,6 @@ const CROSSED: f64 = 0.6;
 
 /// Size of a pencil's grain on paper, in voxels.
 const GRAIN: f64 = 0.4;
-
-/// Shortest line on the page, in widths of the pen.
-pub(super) const SHORTEST: f64 = 6.0;
 
 impl GrownHatching<'_> {
     /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own.

@@ -8,7 +8,6 @@ mod growth_settings;
 use super::visible_values::VisibleValues;
 use super::{in_world, on_page, pen, value};
 use crate::Failure;
-use draw::SHORTEST;
 use drypoint_reference::field::Field;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::counts::Counts;
@@ -26,6 +25,9 @@ use gaps::cut_gaps;
 use growth_counts::{add, count_kept};
 use growth_settings::{growth_settings, line_light};
 use std::time::Instant;
+
+/// Shortest line on the page, in widths of the pen.
+const SHORTEST: f64 = 6.0;
 
 /// Largest distance of chords from their curve on the page, in mm ([HATCH-10]).
 const MOST_OFF: f64 = 0.05;
