@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Items of a run, where one takes a fraction of a microsecond.
+/// Number of items in a run, if an item takes a fraction of a microsecond.
 pub const RUN: usize = 256;
 
 /// The number of threads that share the work of a loop.
@@ -16,7 +16,7 @@ pub fn threads() -> usize {
     rayon::current_num_threads()
 }
 
-/// Does work on a thread of the pool, so that its loops need no way into the pool each.
+/// Does work on a thread of the pool, so that its loops do not enter the pool one by one.
 pub fn in_pool(work: &mut (dyn FnMut() + Send)) {
     rayon::scope(|_| work());
 }

@@ -90,8 +90,8 @@ enum Verb {
     Styles(styles::StylesArgs),
     /// Compare two pictures; exit code 1 when a bound is exceeded
     Compare(compare::CompareArgs),
-    /// Compare a graphics card with the reference, within derived bounds; exit code 1 when one is exceeded, 3 when there
-    /// is none
+    /// Compare a graphics card with the reference, within derived bounds; exit code 1 when one is exceeded, 3 when
+    /// nothing could have failed
     Validate(validate::ValidateArgs),
     /// Measure error and time of every accuracy setting of a scene
     Cost(cost::CostArgs),

@@ -259,7 +259,7 @@ impl<'v, R: Real> Field<'v, R> {
         self.how.gradient == GradientEstimator::Analytic && matches!(self.second, Second::Analytic)
     }
 
-    /// The trilinear sampler, whatever the field's kernel.
+    /// The sampler of a field that [`is_trilinear`](Self::is_trilinear).
     #[inline(always)]
     fn trilinear(&self) -> TrilinearSampler<'_, 'v, R> {
         TrilinearSampler(self)

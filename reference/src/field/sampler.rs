@@ -108,7 +108,7 @@ pub(super) trait Interpolant<R: Real>: Sync {
     }
 }
 
-/// A field that is sampled trilinearly, whatever its kernel. Loops over samples are compiled for it apart: eight voxels
+/// A field whose kernel is trilinear and that has no formula. Loops over samples are compiled for it apart: eight voxels
 /// are read so quickly that decisions and calls at each sample would take most of the time.
 #[derive(Clone, Copy)]
 pub struct TrilinearSampler<'f, 'v, R>(pub(super) &'f Field<'v, R>);
