@@ -180,7 +180,8 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
     let start = Instant::now();
     {
         let progress = Progress::new(talk, "rendering");
-        if let Some(samples) = drawing.samples() {
+        // Rays on a coarse raster can all miss a small volume.
+        if let Some(samples) = drawing.samples().filter(|&samples| samples > 0.0) {
             progress.amount(|| format!("up to {:.1e} samples", samples * repeat as f64));
         }
         // Draws a frame `repeat` times and times it, without the writing.

@@ -28,9 +28,11 @@ pub(super) fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
         }
         ShotError::Motion => ("object".to_owned(), "move it less far, or scale it less"),
         ShotError::ObjectTooLarge { object, .. } => {
-            let is_matrix = scene.objects.get(*object).is_some_and(|table| table.motion.matrix.is_some());
-            let key = if is_matrix { "matrix" } else { "scale" };
-            (format!("object[{object}].{key}"), "scale it less, or make sampling.step longer")
+            let keys = ["matrix", "scale"].map(|key| format!("object[{object}].{key}"));
+            match keys.into_iter().find(|key| scene.given.contains(key)) {
+                Some(key) => (key, "scale it less, or make sampling.step longer"),
+                None => ("sampling.step".to_owned(), "make it longer"),
+            }
         }
         ShotError::LabelName { halo, label } => (format!("halo[{halo}].seed.labels[{label}]"), "write the label's id"),
     };
@@ -47,6 +49,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
         RenderError::Field(FieldError::TooLarge { .. }) => ("sampling.number", "write \"f64\""),
         RenderError::Field(FieldError::Scale { .. }) => ("sampling.scale", "make it smaller, or leave it out"),
         RenderError::TooManyPlanes { .. } => ("sampling.step", "make it longer, or move the camera nearer"),
+        RenderError::TooManySteps { .. } => ("sampling.step", "make it longer"),
         RenderError::Endless { .. } => ("sampling.step", "make it longer, or the picture or picture.samples smaller"),
         RenderError::Nodes(_) => ("transfer.nodes", "give them in ascending order, with opacities in [0, 1]"),
         RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),

@@ -193,6 +193,11 @@ fn what_never_ends() {
     assert!(said.err.starts_with("error: the rays have about "), "{}", said.err);
     assert!(said.err.contains("e15 samples, more than 1e14; the picture would take months\n"), "{}", said.err);
     assert!(said.err.contains("  at: --set sampling.step=\"1e-9 voxels\", key sampling.step\n"), "{}", said.err);
+    // Each ray alone is too long to be interrupted.
+    let said = folder.refused("render torus.nrrd --size 2x2 --set sampling.step=1e-7 -o a.png");
+    assert!(said.starts_with("error: the volume is about "), "{said}");
+    assert!(said.contains("e8 steps across, and at most 1e7 are drawn\n"), "{said}");
+    assert!(said.contains("  at: --set sampling.step=1e-7, key sampling.step\n  try: make it longer\n"), "{said}");
     let said = folder.refused("strokes torus.nrrd --set hatching.min_step=1e-300 -o a.svg");
     assert!(said.starts_with("error: hatching.min_step is below 0.000001 voxels, and a stroke could take "), "{said}");
     assert!(said.contains("key hatching.min_step\n  try: write \"0.000001 voxels\" or more\n"), "{said}");
@@ -250,6 +255,11 @@ fn objects_without_end() {
         assert!(said.contains(&format!("  at: --set {set}, key object[0].scale\n  try: scale it less, ")), "{said}");
     }
     folder.good("render scene.toml --size 1x1 --set picture.samples=1 --set object.0.scale=20 -o a.png");
+    // An object that no key of its own makes large.
+    folder.scene("[[object]]\nname = \"part\"\nvalue = [[90, 0], [160, 1]]\n");
+    let said = folder.refused("render scene.toml --size 2x2 --set sampling.step=\"1e-5 voxels\" -o b.png");
+    assert!(said.starts_with("error: object 0 is about "), "{said}");
+    assert!(said.contains("key sampling.step\n  try: make it longer\n"), "{said}");
 }
 
 /// The runs of voxels of noise are many.

@@ -89,6 +89,8 @@ mod tests {
                 let gradient = exact.gradient(at(x));
                 assert_eq!(field.voxel_gradient([x, 9, 10]), gradient);
                 assert_eq!(square, gradient.dot(gradient));
+                assert_eq!(field.voxel_hessian([x, 9, 10]), exact.hessian(at(x)));
+                assert_eq!(field.smoothed_value([x, 9, 10]), exact.value(at(x)));
             }
         }
     }

@@ -221,10 +221,11 @@ impl<'v, R: Real> Field<'v, R> {
         self.no_normal_below
     }
 
-    /// The value at a voxel: d of the fit where the gradient is `regression`'s and prepared for ([STIP-1]), else the
-    /// voxel's own.
+    /// The value at a voxel: the formula's if there is one, d of the fit where the gradient is `regression`'s and
+    /// prepared for ([STIP-1]), else the voxel's own.
     pub fn smoothed_value(&self, voxel: [usize; 3]) -> R {
         match &self.regression {
+            _ if self.formula.is_some() => self.value(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
             Some(regression) => self.to_value(regression.value_at_voxel(self, voxel)),
             None => R::from_f64(self.volume.value(voxel)),
         }

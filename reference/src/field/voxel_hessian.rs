@@ -7,13 +7,14 @@ use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
 impl Field<'_, f64> {
-    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. Away from the border central differences
+    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. A formula takes the place of voxels. Away from the border central differences
     /// read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere the sampler itself is asked.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
     pub fn voxel_hessian(&self, voxel: [usize; 3]) -> (Vec3<f64>, Sym3<f64>) {
         let near = match &self.second {
+            _ if self.formula.is_some() => None,
             Second::Central if self.stencils.surrounds_twice(voxel) => Some(self.central(voxel)),
             Second::Gaussian(coefficients) => Some(coefficients.derivatives_at(voxel)),
             _ => None,

@@ -179,6 +179,29 @@ fn the_tree_finds_what_testing_every_triangle_finds() {
     assert!((200..3800).contains(&hits), "{hits}");
 }
 
+/// Triangles in one box differ by the corners that they take of it. A list of equal boxes takes the builder of the tree
+/// quadratic time, so that it may have none.
+#[test]
+fn triangles_with_equal_boxes_hang_below_one_leaf() {
+    let cube = |i: usize| DVec3::from_array([0, 1, 2].map(|axis| f64::from(u8::from(i >> axis & 1 == 1))));
+    // Opposite corners and a point inside: each has the box of the cube.
+    let inside = (0..20_000).map(|i| (vector(i, 0) + DVec3::ONE) * 0.5);
+    let positions: Vec<DVec3> = (0..8).map(cube).chain(inside).collect();
+    let triangles = (0..20_000).map(|i| [i % 4, 7 - i % 4, 8 + i]).collect();
+    let meshes = [TriangleMesh::new(positions, None, triangles).unwrap()];
+    let search = MeshSearch::new(&meshes, &grid()).unwrap();
+    assert_eq!(search.boxes().len(), 2 * 20_000 - 1);
+    for i in 0..50 {
+        let line = [vector(i, 20) * 4.0, (vector(i, 30) + DVec3::ONE) * 0.5 - vector(i, 20) * 4.0];
+        let sheared = ShearedLine::new(line).unwrap();
+        let all = search.corners().iter().enumerate();
+        let all = all.filter_map(|(i, &corners)| Some((sheared.crosses(corners)?.t, i)));
+        let first = all.min_by(|a, b| a.partial_cmp(b).unwrap());
+        assert_eq!(search.nearest(line, ALL).map(|hit| (hit.t, search.place(&hit))), first, "{i}");
+        assert!(first.is_some());
+    }
+}
+
 #[test]
 fn degenerate_triangles_and_lines_are_met_nowhere() {
     let flat = |positions: [DVec3; 3]| TriangleMesh::new(positions.to_vec(), None, vec![[0, 1, 2]]).unwrap();

@@ -63,8 +63,18 @@ impl BoxTree {
             Aabb::new(corner(from, lo).into(), corner(to, hi).into())
         };
         let bounds: Vec<Aabb> = boxes.iter().map(bound).collect();
-        let indices = (0..bounds.len() as u32).collect();
-        let built = PlocBuilder::new().build(PlocSearchDistance::Low, &bounds, indices, SortPrecision::U64, 0);
+        // The builder joins one pair of equal boxes at a time, so that it receives each box once. `order` has the
+        // places of equal boxes side by side.
+        let key = |i: u32| {
+            let Aabb { min, max } = bounds[i as usize];
+            [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits)
+        };
+        let mut order: Vec<u32> = (0..bounds.len() as u32).collect();
+        order.sort_by_key(|&i| key(i));
+        let equal: Vec<&[u32]> = order.chunk_by(|&a, &b| key(a) == key(b)).collect();
+        let distinct: Vec<Aabb> = equal.iter().map(|places| bounds[places[0] as usize]).collect();
+        let indices = (0..distinct.len() as u32).collect();
+        let built = PlocBuilder::new().build(PlocSearchDistance::Low, &distinct, indices, SortPrecision::U64, 0);
         let open_lo = |x: f32| if x > f32::MIN { f64::from(x) } else { f64::NEG_INFINITY };
         let open_hi = |x: f32| if x < f32::MAX { f64::from(x) } else { f64::INFINITY };
         let node = |n: &Bvh2Node| BoxNode {
@@ -73,7 +83,13 @@ impl BoxTree {
             first: if n.is_leaf() { built.primitive_indices[n.first_index as usize] } else { n.first_index },
             is_leaf: n.is_leaf(),
         };
-        Self { nodes: built.nodes.iter().map(node).collect() }
+        let mut nodes: Vec<BoxNode> = built.nodes.iter().map(node).collect();
+        let leaves: Vec<usize> = (0..nodes.len()).filter(|&i| nodes[i].is_leaf).collect();
+        for leaf in leaves {
+            let places = equal[nodes[leaf].first as usize];
+            hang(&mut nodes, leaf, places);
+        }
+        Self { nodes: nodes.into() }
     }
 
     /// The nodes.
@@ -105,5 +121,20 @@ impl BoxTree {
             let is_nearer = matches!((a, b), (Some((a, _)), Some((b, _))) if a <= b);
             open.extend(if is_nearer { [b, a] } else { [a, b] }.into_iter().flatten());
         }
+    }
+}
+
+/// Makes a node the root of a balanced tree over places of equal boxes. There is at least one place.
+fn hang(nodes: &mut Vec<BoxNode>, root: usize, places: &[u32]) {
+    let mut open = vec![(root, places)];
+    while let Some((node, places)) = open.pop() {
+        if let [place] = places {
+            nodes[node] = BoxNode { first: *place, is_leaf: true, ..nodes[node] };
+            continue;
+        }
+        let (children, (left, right)) = (nodes.len(), places.split_at(places.len() / 2));
+        nodes[node] = BoxNode { first: children as u32, is_leaf: false, ..nodes[node] };
+        nodes.extend([nodes[node]; 2]);
+        open.extend([(children, left), (children + 1, right)]);
     }
 }

@@ -1,6 +1,6 @@
 //! The data that a picture is made of, and what can be wrong with it.
 
-use super::lattice::MOST_SAMPLES;
+use super::lattice::{MOST_ACROSS, MOST_SAMPLES};
 use crate::field::FieldError;
 use crate::transfer::NodesError;
 pub use drypoint_scene::backdrop::Backdrop;
@@ -54,6 +54,12 @@ pub enum RenderError {
     TooManyPlanes {
         /// The largest distance from the eye, in steps.
         planes: f64,
+    },
+    /// A volume so many steps across that one ray takes long, and cannot be interrupted.
+    #[error("the volume is about {steps:.1e} steps across, and at most {MOST_ACROSS:.0e} are drawn")]
+    TooManySteps {
+        /// Steps along the longest diagonal of its box.
+        steps: f64,
     },
     /// More samples than can be evaluated in months.
     #[error("the rays have about {samples:.1e} samples, more than {:.0e}; the picture would take months", MOST_SAMPLES)]

@@ -11,6 +11,9 @@ use drypoint_scene::view::{Ray, View};
 /// The most samples of a picture: beyond those a fast processor is busy for months.
 pub const MOST_SAMPLES: f64 = 1e14;
 
+/// The most steps across a volume. A ray of so many samples takes about a second.
+pub const MOST_ACROSS: f64 = 1e7;
+
 /// From origins so many 1/ε voxels away rounding could move positions by a hundredth of a voxel.
 const FAR: f64 = 1.0 / 1024.0;
 

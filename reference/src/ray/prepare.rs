@@ -3,7 +3,7 @@
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
 use super::inputs::{Inputs, RenderError};
-use super::lattice::{MOST_SAMPLES, samples_in};
+use super::lattice::{MOST_ACROSS, MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
 use super::prepared_combination::PreparedCombination;
 use super::prepared_halos::PreparedHalos;
@@ -285,7 +285,11 @@ fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
         return Err(RenderError::TooManyPlanes { planes });
     }
     let samples = samples_in(lattice, view, grid) * (shot.rays_across * shot.rays_across) as f64;
-    if samples > MOST_SAMPLES { Err(RenderError::Endless { samples }) } else { Ok(()) }
+    if samples > MOST_SAMPLES {
+        return Err(RenderError::Endless { samples });
+    }
+    let steps = 2.0 * grid.radius() / lattice.step;
+    if steps > MOST_ACROSS { Err(RenderError::TooManySteps { steps }) } else { Ok(()) }
 }
 
 /// Marks the bricks in which the function can show something.

@@ -6,6 +6,7 @@ use crate::space::Grid;
 use crate::tables::{Scene, StepAlong};
 use crate::view::View;
 use glam::DVec3;
+use std::ops::Range;
 
 /// The reason why no ray of a picture meets the volume.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,11 +21,15 @@ pub enum OutOfSight {
 
 impl OutOfSight {
     /// Returns the reason why no ray of a view meets the box of the volume; none if one does. Rays are looked at on a
-    /// raster of at most 128 × 128.
+    /// raster of at most 128 × 128 over the part of the picture that shows the box.
     pub fn of(scene: &Scene, grid: &Grid, view: &View, lattice: Lattice) -> Option<Self> {
         const ACROSS: usize = 128;
-        let [width, height] = view.size;
-        let along = |n: usize| (0..n).step_by(n.div_ceil(ACROSS)).map(|i| i as f64 + 0.5);
+        let shown = pixels_of_box(view, grid);
+        let along = |axis: usize| {
+            let pixels: Range<usize> = shown[axis].clone();
+            let every = pixels.len().div_ceil(ACROSS).max(1);
+            pixels.step_by(every).map(|i| i as f64 + 0.5)
+        };
         // The box as planes, then those of each clip.
         let ends = grid.index_box();
         let sides = DVec3::AXES.into_iter().flat_map(|axis| [(ends[0], -axis), (ends[1], axis)]);
@@ -33,7 +38,7 @@ impl OutOfSight {
         // Whether some ray is beyond `near` inside the box and before the planes.
         let is_met = |near: f64, clips: &[Vec<ClipPlane>]| {
             let planes = ClipPlanes(sides.iter().chain(clips.iter().flatten()).cloned().collect());
-            along(height).flat_map(|j| along(width).map(move |i| (i, j))).any(|(i, j)| {
+            along(1).flat_map(|j| along(0).map(move |i| (i, j))).any(|(i, j)| {
                 let ray = view.ray(i, j);
                 let first = match (view.perspective, lattice.along) {
                     (false, _) => f64::NEG_INFINITY,
@@ -56,6 +61,19 @@ impl OutOfSight {
             (!is_met(near, &clips)).then(all)
         }
     }
+}
+
+/// The columns and the rows of pixels that show the box of a volume; all of them if a corner is beside the eye or behind
+/// it.
+fn pixels_of_box(view: &View, grid: &Grid) -> [Range<usize>; 2] {
+    let corners: Option<Vec<[f64; 2]>> = grid.world_corners().into_iter().map(|corner| view.point_of(corner)).collect();
+    let Some(corners) = corners else { return view.size.map(|n| 0..n) };
+    [0, 1].map(|axis| {
+        let along = corners.iter().map(|corner| corner[axis]);
+        let (lo, hi) = (along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max));
+        // Beyond the picture `as` gives 0 or the largest number.
+        (lo.floor() as usize).min(view.size[axis])..(hi.floor() as usize).saturating_add(1).min(view.size[axis])
+    })
 }
 
 #[cfg(test)]
@@ -85,6 +103,8 @@ mod tests {
             (format!("{parallel}{none}"), Some(OutOfSight::Clips(vec![0]))),
             (plane(5.0, 1.0) + &plane(15.0, -1.0), Some(OutOfSight::Clips(vec![0, 1]))),
             (plane(15.0, 1.0) + &plane(5.0, -1.0), None),
+            // A volume of 3 × 2 pixels, between rays on a raster over the whole picture.
+            (format!("{parallel}height = 1500\ndirection = [0, 1, 0]\nup = [0, 0, 1]\n"), None),
         ] {
             let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
             let scene = parse(&text, Path::new("scene.toml"), &Overrides::default()).unwrap();

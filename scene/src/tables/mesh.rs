@@ -38,12 +38,7 @@ pub(crate) static TABLE: Table<MeshTable> = Table {
             let what = "the colour of a mesh has an opacity, and meshes are opaque".into();
             check.fault_in("color", Problem::Contradiction { what, remedy: "write it as \"#rrggbb\"".into() });
         }
-        if check.sound(&["scale", "rotate", "matrix"]) && mesh.motion.is_singular() {
-            let key = if mesh.motion.matrix.is_some() { "matrix" } else { "scale" };
-            let what = "the motion of the mesh is singular: it flattens the mesh".into();
-            let remedy = "give it an inverse: no factor may be 0, or 10¹² times smaller than another".into();
-            check.fault_in(key, Problem::Contradiction { what, remedy });
-        }
+        mesh.motion.check("the mesh", check);
     },
     ..Table::new(
         "a mesh",

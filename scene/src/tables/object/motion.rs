@@ -3,6 +3,7 @@
 use crate::document::check::Check;
 use crate::document::declare::table;
 use crate::document::describe::{Kind, Shape, Table};
+use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Number, Numbers, Rule};
 use crate::document::out::Out;
@@ -79,6 +80,16 @@ impl Motion {
         let linear = self.linear();
         let [largest, _, smallest] = singular_values(linear);
         !linear.is_finite() || smallest <= largest * 1e-12 || !linear.inverse().is_finite()
+    }
+
+    /// Reports a motion that is singular, of `moved`: an object or a mesh.
+    pub(crate) fn check(&self, moved: &str, check: &mut Check) {
+        if check.sound(&["scale", "rotate", "matrix"]) && self.is_singular() {
+            let key = if self.matrix.is_some() { "matrix" } else { "scale" };
+            let what = format!("the motion of {moved} is singular: it flattens space, or leaves the range of numbers");
+            let remedy = "no factor may be 0, 10¹² times smaller than another, or beyond 10⁷⁵".into();
+            check.fault_in(key, Problem::Contradiction { what, remedy });
+        }
     }
 }
 

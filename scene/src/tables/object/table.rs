@@ -148,12 +148,7 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
                 check.fault_in(key, Problem::Contradiction { what, remedy });
             }
         }
-        if check.sound(&["scale", "rotate", "matrix"]) && object.motion.is_singular() {
-            let key = if object.motion.matrix.is_some() { "matrix" } else { "scale" };
-            let what = format!("the motion of the object {:?} is singular: it flattens the object", object.name);
-            let remedy = "give it an inverse: no factor may be 0, or 10¹² times smaller than another".into();
-            check.fault_in(key, Problem::Contradiction { what, remedy });
-        }
+        object.motion.check("the object", check);
     },
     ..Table::new(
         "an object",
