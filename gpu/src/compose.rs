@@ -56,9 +56,11 @@ fn of_volume(
     // The field and its rays.
     field::kernel::add(&mut shader, object.reconstruction.kernel, measured, grid);
     ray::add_lattice(&mut shader, shot, place)?;
+    add_near(&mut shader.block, shot, place);
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
-    ray::add_cast(&mut shader, shot, inputs.has_lines);
+    let cast = if shot.combination.is_some() { volumeshop::CAST_AMONG } else { ray::CAST_ALONE };
+    ray::add_cast(&mut shader, shot, cast, inputs.has_lines);
     if let Some(mask) = inputs.volume.mask() {
         field::mask::add(&mut shader, mask, grid);
         ray::add_mask(&mut shader);
@@ -162,6 +164,7 @@ pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
     let [object] = &shot.objects;
     let mut block = Block::default();
     ray::add_view(&mut block, shot, place)?;
+    add_near(&mut block, shot, place);
     let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
     let of_surface = shot.surface.as_ref().and_then(|surface| light_of(&surface.lit));
     let of_meshes = shot.meshes.first().and_then(|mesh| light_of(&mesh.lit));
@@ -172,6 +175,13 @@ pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
         }
     }
     Ok(block)
+}
+
+/// Adds the near distance where surfaces or funnels ask for it.
+fn add_near(block: &mut Block, shot: &Shot, place: &Place) {
+    if ray::ends_rays(shot) || volumeshop::has_funnel(shot) {
+        ray::add_near(block, shot, place);
+    }
 }
 
 /// The direction to the light; none where nothing is lit.

@@ -2,8 +2,7 @@
 
 use crate::block::Block;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
-use crate::number::{DOUBLE, SINGLE};
-use crate::{Gpu, GpuError, Precision};
+use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::glam::DVec3;
 use std::fmt::Write;
 
@@ -99,7 +98,7 @@ impl Kernel<'_> {
     }
 
     fn text(&self, block: &Block, precision: Precision, columns: usize) -> String {
-        let number = if precision == Precision::Double { DOUBLE } else { SINGLE };
+        let number = number::of(precision);
         let Self { modules, before, results, .. } = self;
         let mut text = format!("{}\n{}\n{modules}\n", number.text, block.wgsl());
         let m = results.len();

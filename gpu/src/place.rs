@@ -1,8 +1,7 @@
 //! The place of a volume in a picture.
 
-use crate::ray;
 use drypoint_scene::glam::{DMat3, DVec3};
-use drypoint_scene::shot::Shot;
+use drypoint_scene::shot::{Shot, StepAlong};
 use drypoint_scene::space::Grid;
 
 /// The place of a volume as it is drawn.
@@ -23,7 +22,7 @@ pub(crate) struct Place {
 impl Place {
     /// The place of the picture's own volume.
     pub(crate) fn own(shot: &Shot, grid: &Grid) -> Self {
-        let (anchor, voxel) = (ray::anchor(shot, grid), grid.voxel());
+        let (anchor, voxel) = (anchor(shot, grid), grid.voxel());
         Self { grid: grid.clone(), index_box: grid.index_box(), anchor, voxel, moved: None }
     }
 
@@ -33,4 +32,12 @@ impl Place {
         let moved = (grid.axes() != axes).then(|| (axes * grid.inverse_axes()).transpose());
         Self { index_box: grid.index_box(), grid, moved, ..*self }
     }
+}
+
+/// The plane in the middle of the volume, counted from the eye, from which shaders count planes.
+pub(crate) fn anchor(shot: &Shot, grid: &Grid) -> f64 {
+    let Shot { view, lattice, .. } = shot;
+    let centre = view.to_eye(grid.centre());
+    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
+    (away / lattice.step).floor()
 }

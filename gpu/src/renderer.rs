@@ -14,65 +14,15 @@ use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::{HaloPlanes, corners};
-use crate::{Gpu, GpuError, Precision, Volume, compose, volumeshop};
-use drypoint_scene::backdrop::Backdrop;
+use crate::{Gpu, GpuError, Inputs, Precision, Volume, compose, volumeshop};
 use drypoint_scene::fragments::Fragments;
-use drypoint_scene::intersection_picture::IntersectionPicture;
-use drypoint_scene::measured::Measured;
-use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
-use drypoint_scene::style::Style;
-use drypoint_scene::volume::Selection;
-use drypoint_scene::volume::labels::LabelVolume;
 use std::ops::Range;
 
 /// The first channel of a pixel whose rays the driver ended lies below.
 const UNFINISHED: f64 = -1.5e30;
-
-/// The data that a shot names, beside the volume's numbers.
-#[derive(Clone, Debug)]
-pub struct Inputs<'a> {
-    /// The volume: its grid and its mask.
-    pub volume: &'a drypoint_scene::volume::Volume,
-    /// The facts of the volume.
-    pub measured: &'a Measured,
-    /// The labels beside the volume, where the function reads them ([STF-13]).
-    pub labels: Option<&'a LabelVolume>,
-    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
-    pub further: [Option<&'a drypoint_scene::volume::Volume>; 2],
-    /// The styles that the function names, then those of caps.
-    pub styles: &'a [Style],
-    /// The background.
-    pub background: Backdrop<'a>,
-    /// The meshes of the shot, in its order, in the world ([VS-12]).
-    pub meshes: &'a [TriangleMesh],
-    /// Whether frames can have lines inside the volume ([HATCH-14] d).
-    pub has_lines: bool,
-    /// The data that the shot's objects name ([VS-2]).
-    pub objects: ObjectInputs<'a>,
-}
-
-/// The data that the objects of a shot name, each list in the shot's order.
-#[derive(Clone, Debug, Default)]
-pub struct ObjectInputs<'a> {
-    /// The data of selections and ghosts.
-    pub parts: Vec<PartInputs<'a>>,
-    /// The selection volumes; none where the selection is another one.
-    pub selections: Vec<Option<&'a Selection>>,
-    /// The pictures of intersections whose colour is one.
-    pub pictures: Vec<Option<&'a IntersectionPicture>>,
-}
-
-/// The data that a selection or a ghost names.
-#[derive(Clone, Debug)]
-pub struct PartInputs<'a> {
-    /// The data of the part as a picture of its own.
-    pub inputs: Inputs<'a>,
-    /// The place of its volume among those that are uploaded.
-    pub place: usize,
-}
 
 /// The order in which rays are drawn.
 enum Rays {
@@ -143,8 +93,8 @@ impl<'g> Renderer<'g> {
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
             let others = inputs.meshes.iter().flat_map(corners).chain(objects.corners()).collect();
-            let (shader, has_funnels) = ((&shader, text.as_str()), funnels.is_some());
-            let planes = HaloPlanes::new(gpu, shot, (grid, others), has_funnels, shader, &data_layout, precision)?;
+            let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
+            let planes = HaloPlanes::new(gpu, shot, (grid, others), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))
         };
         let params = buffer(
@@ -284,12 +234,12 @@ impl<'g> Renderer<'g> {
             canvas.write_params(&self.shader.block, self.precision)?;
             funnels.draw(&canvas)?;
         }
-        let maps = self.funnels.as_ref().map(FunnelPasses::maps);
+        let maps = self.funnels.as_ref().map(|funnels| (MAPS, funnels.maps()));
         match &self.rays {
             Rays::Alone(passes) => {
                 let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
                 let of_lines = lines.iter().flat_map(|[starts, lines]| [(LINE_STARTS, starts), (LINES, lines)]);
-                let further: Vec<_> = of_lines.chain(maps.map(|maps| (MAPS, maps))).collect();
+                let further: Vec<_> = of_lines.chain(maps).collect();
                 passes.draw(&canvas, (&mut self.shader.block, self.precision), &further, rows)
             }
             Rays::Together(planes) => {

@@ -2,26 +2,15 @@
 
 mod attach;
 mod declarations;
+mod function;
+mod halo_stages;
 
 use crate::block::Block;
-use crate::{Interpolation, Precision, volumetric_halos};
+use crate::module::Module;
+use crate::{Interpolation, Precision, number};
+use function::write_function;
+pub(crate) use halo_stages::{HaloStages, Kept};
 use std::fmt::Write;
-
-/// A WGSL file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Module {
-    /// Its path in the crate, without suffix.
-    pub(crate) name: &'static str,
-    pub(crate) text: &'static str,
-}
-
-/// The WGSL file beside a source file, by its path from the folder of that file.
-macro_rules! module {
-    ($name:literal) => {
-        $crate::shader::Module { name: $name, text: include_str!(concat!($name, ".wgsl")) }
-    };
-}
-pub(crate) use module;
 
 /// Data that a binding of group 1 reads.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,7 +97,7 @@ pub(crate) struct Stages {
     /// refined.
     pub(crate) channels: Vec<Channel>,
     /// Stages of halos; none: the scene has no halo.
-    pub(crate) halos: Option<volumetric_halos::Stages>,
+    pub(crate) halos: Option<HaloStages>,
     /// Functions of objects; none: the scene has no object, and is no part of one.
     pub(crate) objects: Option<String>,
 }
@@ -158,7 +147,7 @@ impl Shader {
     /// The text of a shader that draws pictures.
     pub(crate) fn text(&self, precision: Precision) -> String {
         let mut text = self.modules_text(precision) + &self.stages.wgsl();
-        text.extend(self.stages.halos.as_ref().map(volumetric_halos::Stages::wgsl));
+        text.extend(self.stages.halos.as_ref().map(HaloStages::wgsl));
         text.extend(self.attached.iter().map(String::as_str));
         text.extend(self.stages.objects.as_deref());
         text
@@ -173,10 +162,7 @@ impl Shader {
 
     /// The text up to the stages.
     fn modules_text(&self, precision: Precision) -> String {
-        let number = match precision {
-            Precision::Single => crate::number::SINGLE,
-            Precision::Double => crate::number::DOUBLE,
-        };
+        let number = number::of(precision);
         let mut text = format!("// number/{}\n{}\n{}\n", number.name, number.text, self.block.wgsl());
         for (name, value) in &self.constants {
             let _ = match value {
@@ -191,30 +177,19 @@ impl Shader {
     }
 }
 
-/// Appends a function of a shader.
-fn write_function(text: &mut String, head: &str, lines: &[String], result: Option<&str>) {
-    let _ = write!(text, "\nfn {head} {{\n");
-    for line in lines {
-        let _ = writeln!(text, "    {line}");
-    }
-    if let Some(result) = result {
-        let _ = writeln!(text, "    return {result};");
-    }
-    text.push_str("}\n");
-}
-
 impl Stages {
     /// Appends the stage of cells that a search passes over.
     fn passed_wgsl(&self, text: &mut String) {
         let calls = self.passed.iter().map(|s| format!("side = max(side, {s}(cell));"));
-        let lines: Vec<String> = std::iter::once("var side = 0;".to_owned()).chain(calls).collect();
-        write_function(text, "cells_passed(cell: vec3<i32>) -> i32", &lines, Some("side"));
+        let lines = std::iter::once("var side = 0;".to_owned()).chain(calls);
+        write_function(text, "cells_passed(cell: vec3<i32>) -> i32", lines, Some("side"));
     }
 
     fn wgsl(&self) -> String {
         let mut text = String::new();
         self.passed_wgsl(&mut text);
-        let mut function = |head: &str, lines: &[String], result| write_function(&mut text, head, lines, result);
+        let mut function =
+            |head: &str, lines: &[String], result| write_function(&mut text, head, lines.iter().cloned(), result);
         let calls = |stages: &[&str], call: &dyn Fn(&str) -> String| stages.iter().map(|s| call(s)).collect::<Vec<_>>();
         let with = |first: &str, lines: Vec<String>| [vec![first.to_owned()], lines].concat();
         let lines = calls(&self.begin_part, &|s| format!("{s}(pixel, part, across);"));

@@ -1,6 +1,7 @@
 //! Voxels that are no numbers ([PREC-2], [GPU-7]).
 
-use crate::shader::{Constant, Data, Shader, module};
+use crate::module::module;
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Mask;
 

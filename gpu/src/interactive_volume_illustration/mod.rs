@@ -1,6 +1,7 @@
 //! Nagy, Schneider, Westermann, *Interactive Volume Illustration*, VMV 2002.
 
-use crate::shader::{Constant, Data, Shader, module};
+use crate::module::module;
+use crate::shader::{Constant, Data, Shader};
 use crate::shading::LitColors;
 use drypoint_scene::shot::{Tone, ToonParams};
 

@@ -1,6 +1,7 @@
 //! Meshes of triangles, at which rays end ([VS-12]).
 
-use crate::shader::{Constant, Data, Shader, module};
+use crate::module::module;
+use crate::shader::{Constant, Data, Shader};
 use crate::{GpuError, Inputs, Precision, shading};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::{BoxNode, TriangleMesh};

@@ -1,11 +1,8 @@
 //! Numbers of shaders: f32 and f64, and their elementary functions.
 
-use crate::shader::{Module, module};
+use crate::Precision;
+use crate::module::{Module, module};
 
-/// `real = f32`.
-pub(crate) const SINGLE: Module = module!("single");
-/// `real = f64`.
-pub(crate) const DOUBLE: Module = module!("double");
 /// Functions of every scene.
 pub(crate) const NUMBER: Module = module!("number");
 /// Transcendental functions.
@@ -14,3 +11,11 @@ pub(crate) const ELEMENTARY: Module = module!("elementary");
 pub(crate) const BILINEAR: Module = module!("bilinear");
 /// sRGB.
 pub(crate) const COLOR: Module = module!("color");
+
+/// Numbers of a precision: `real = f32` or `real = f64`.
+pub(crate) fn of(precision: Precision) -> Module {
+    match precision {
+        Precision::Single => module!("single"),
+        Precision::Double => module!("double"),
+    }
+}

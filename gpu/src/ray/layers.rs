@@ -1,9 +1,10 @@
 //! Layers of a picture ([IO-6]).
 
 use crate::field::Scales;
+use crate::module::module;
 use crate::ray::EYE_NORMAL;
-use crate::shader::{Channel, Shader, module};
-use crate::volumetric_halos::Stages;
+use crate::shader::HaloStages;
+use crate::shader::{Channel, Shader};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
 
@@ -75,7 +76,7 @@ fn expressions(layer: LayerKind) -> Vec<String> {
         LayerKind::FirstCurvature => first("curvature"),
         LayerKind::FirstCurvatureAlongView => one("pixel_sums.first.curvature.z"),
         LayerKind::Counts => one("real(samples_of_pixel)"),
-        LayerKind::Halo(halo) => vec![Stages::intensity(halo)],
+        LayerKind::Halo(halo) => vec![HaloStages::intensity(halo)],
     }
 }
 

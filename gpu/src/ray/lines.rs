@@ -1,8 +1,9 @@
 //! Lines inside a volume ([HATCH-14] d).
 
-use super::anchor;
 use crate::buffers::buffer;
-use crate::shader::{Shader, module};
+use crate::module::module;
+use crate::place::anchor;
+use crate::shader::Shader;
 use crate::{Gpu, GpuError, Precision};
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::shot::{Shot, StepAlong};

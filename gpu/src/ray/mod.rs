@@ -8,16 +8,16 @@ pub(crate) mod present;
 
 use crate::block::Block;
 use crate::field::Scales;
+use crate::module::{Module, module};
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
 use crate::place::Place;
-use crate::shader::{Constant, Data, Module, Shader, module};
-use crate::{GpuError, Precision, volumeshop};
+use crate::shader::{Constant, Data, Shader};
+use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::color::premultiply;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, SampleQuery, Shot, StepAlong};
-use drypoint_scene::space::Grid;
 use drypoint_scene::volume::{BRICK, Bricks};
 
 /// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
@@ -38,14 +38,6 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &Place) -> Re
     add_view(&mut shader.block, shot, place)
 }
 
-/// The plane in the middle of the volume, counted from the eye, from which shaders count planes.
-pub(crate) fn anchor(shot: &Shot, grid: &Grid) -> f64 {
-    let Shot { view, lattice, .. } = shot;
-    let centre = view.to_eye(grid.centre());
-    let away = if view.perspective && lattice.along == StepAlong::Ray { centre.length() } else { -centre.z };
-    (away / lattice.step).floor()
-}
-
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
 /// are of the volume's size.
 pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<(), GpuError> {
@@ -64,10 +56,6 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
     block.number("step", lattice.step);
     block.number("anchor_steps", steps);
     block.number("first_plane", first);
-    if ends_rays(shot) || volumeshop::has_funnel(shot) {
-        let near = if view.perspective { lattice.near / lattice.step - steps } else { -MOST_PLANES };
-        block.number("near_steps", near.max(-MOST_PLANES));
-    }
     block.number("pixel", view.pixel);
     block.vector("view_right", view.right);
     block.vector("view_up", view.up);
@@ -82,15 +70,29 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
     Ok(())
 }
 
+/// Adds the near distance, before which surfaces and funnels begin nothing.
+pub(crate) fn add_near(block: &mut Block, shot: &Shot, place: &Place) {
+    let Shot { view, lattice, .. } = shot;
+    let near = if view.perspective { lattice.near / lattice.step - (place.anchor + 0.5) } else { -MOST_PLANES };
+    block.number("near_steps", near.max(-MOST_PLANES));
+}
+
+/// Rays about the picture, on each side of it, from which halos reach into it.
+pub(crate) fn guard(shot: &Shot) -> usize {
+    shot.halos.list.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0)
+}
+
 /// Whether a shot has an opaque surface at which rays end: an iso-surface or a mesh.
 pub(crate) fn ends_rays(shot: &Shot) -> bool {
     shot.surface.is_some() || !shot.meshes.is_empty()
 }
 
-/// Adds the loop over samples and what it calls.
-pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, has_lines: bool) {
+/// A ray through the volume alone.
+pub(crate) const CAST_ALONE: &[Module] = &[module!("cast_alone")];
+
+/// Adds the loop over samples and what it calls: `cast` is a ray's order of samples.
+pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_lines: bool) {
     let [object] = &shot.objects;
-    let cast = if shot.combination.is_some() { &volumeshop::CAST_AMONG[..] } else { &[module!("cast_alone")] };
     shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
     shader.add(cast);
     if has_lines {

@@ -1,9 +1,8 @@
 //! The finished picture in a viewer's texture.
 
 use crate::buffers::{entry, list_entry, pipeline};
-use crate::number::{DOUBLE, SINGLE};
-use crate::shader::{Module, module};
-use crate::{Gpu, GpuError, Precision};
+use crate::module::{Module, module};
+use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::picture::LayerKind;
 
 const PRESENT: Module = module!("present");
@@ -71,10 +70,7 @@ impl Presentation {
 
 /// The shader for pixels of so many channels, with the beauty from channel `first` on.
 pub(crate) fn text(precision: Precision, [width, height]: [usize; 2], channels: usize, first: usize) -> String {
-    let number = match precision {
-        Precision::Single => SINGLE,
-        Precision::Double => DOUBLE,
-    };
+    let number = number::of(precision);
     format!(
         "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\nconst CHANNELS = {channels};\nconst BEAUTY = {first};\n{}",
         number.text, PRESENT.text

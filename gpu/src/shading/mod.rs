@@ -1,7 +1,8 @@
 //! Blinn–Phong shading ([STF-11]), and the colours that light falls on.
 
+use crate::module::module;
 use crate::number::{ELEMENTARY, NUMBER};
-use crate::shader::{Constant, Shader, module};
+use crate::shader::{Constant, Shader};
 use drypoint_scene::shot::PhongParams;
 
 /// Colours under a light of their own.

@@ -1,8 +1,9 @@
 //! Bruckner and Gröller, Style Transfer Functions for Illustrative Volume Rendering, Computer Graphics Forum 26(3), 2007.
 
+use crate::module::{Module, module};
 use crate::number::{BILINEAR, COLOR, ELEMENTARY};
 use crate::ray::EYE_NORMAL;
-use crate::shader::{Data, Module, Shader, module};
+use crate::shader::{Data, Shader};
 use drypoint_scene::math;
 use drypoint_scene::shot::{Clipping, ContourParams, Kappa, Mix, Shot, SphereFrame, StyleParams, Transparency, Turn};
 use drypoint_scene::style::Style;

@@ -1,7 +1,8 @@
 //! Iso-surfaces at which rays end ([HATCH-14]).
 
 use crate::field::Scales;
-use crate::shader::{Constant, Data, Shader, module};
+use crate::module::module;
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{Kernel, OpaqueSurface, Outside, Shot};
 

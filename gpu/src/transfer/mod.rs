@@ -4,7 +4,8 @@ pub(crate) mod over;
 
 use crate::Precision;
 use crate::field::Scales;
-use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::module::{Module, module};
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::transfer::{Function, Rows, gate};
 
 /// The colours of a place between the nodes of a function over the value.

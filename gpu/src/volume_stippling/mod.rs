@@ -4,9 +4,10 @@
 use crate::block::Block;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::field::Scales;
+use crate::module::module;
 use crate::ray::RAY;
 use crate::renderer::{bind_data, data_layout};
-use crate::shader::{Constant, Shader, module};
+use crate::shader::{Constant, Shader};
 use crate::{Gpu, GpuError, Precision, Volume, compose, field, ray, surface};
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::DVec3;

@@ -2,10 +2,9 @@
 
 use crate::buffers::{buffer, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
-use crate::number::{DOUBLE, SINGLE};
-use crate::shader::{Constant, Data, Shader, module};
-use crate::volumetric_halos::planes::image_size;
-use crate::{Gpu, GpuError, Precision};
+use crate::module::module;
+use crate::shader::{Constant, Data, Shader};
+use crate::{Gpu, GpuError, Precision, number, ray};
 use drypoint_scene::math;
 use drypoint_scene::shot::Shot;
 
@@ -69,7 +68,7 @@ fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
 /// Pixels about the picture over which maps of funnels reach: the guard band of halos, whose seeds are cut as in a larger
 /// picture.
 fn margin(shot: &Shot) -> usize {
-    image_size(shot).guard.div_ceil(shot.rays_across.max(1))
+    ray::guard(shot).div_ceil(shot.rays_across.max(1))
 }
 
 /// Pixels across and down of maps of funnels.
@@ -105,9 +104,8 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
 
 /// The shader that makes maps of far depths, of so many pixels across and down.
 pub(crate) fn text_of_maps(precision: Precision, [width, height]: [usize; 2]) -> String {
-    let number = if precision == Precision::Single { SINGLE } else { DOUBLE };
     let sizes = format!("const WIDTH = {width};\nconst HEIGHT = {height};");
-    format!("{}\n{sizes}\n{}", number.text, module!("funnel_maps").text)
+    format!("{}\n{sizes}\n{}", number::of(precision).text, module!("funnel_maps").text)
 }
 
 /// Passes that map the funnels of a shot, with their buffers.

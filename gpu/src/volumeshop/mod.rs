@@ -5,9 +5,9 @@ pub(crate) mod objects;
 pub(crate) mod part;
 pub(crate) mod selection;
 
+use crate::module::{Module, module};
 use crate::number::BILINEAR;
-use crate::shader::{Constant, Data, Module, Shader, module};
-use drypoint_scene::glam::DMat3;
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::lighting::LightingTable;
 use drypoint_scene::shot::{
     Combination, Cut, Cutaway, Lighting, LightingParams, Material, Membership, SelectionParams, Shot,
@@ -16,8 +16,8 @@ use drypoint_scene::shot::{
 /// The binding of the cells of a lighting table.
 const LIGHTING: u32 = 24;
 
-/// Rays among objects.
-pub(crate) const CAST_AMONG: [Module; 2] = [module!("spans"), module!("cast_among")];
+/// A ray among objects.
+pub(crate) const CAST_AMONG: &[Module] = &[module!("spans"), module!("cast_among")];
 
 /// Adds the lighting function of samples. An iso-surface has a look of its own, and none is lit by one.
 pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
@@ -42,14 +42,6 @@ pub(crate) fn lighting_cells(shot: &Shot) -> Vec<Vec<f64>> {
         Material::Style(_) => None,
     });
     tables.collect()
-}
-
-/// Adds the motion of a field, as it acts on gradients ([VS-2]).
-pub(crate) fn add_motion(shader: &mut Shader, moved: DMat3) {
-    shader.add(&[module!("moved")]);
-    for (name, column) in [("moved_x", 0), ("moved_y", 1), ("moved_z", 2)] {
-        shader.block.vector(name, moved.col(column));
-    }
 }
 
 /// Whether a selection can have members.

@@ -3,8 +3,9 @@
 use super::funnel;
 use crate::Precision;
 use crate::field::Scales;
+use crate::module::{Module, module};
 use crate::number::{BILINEAR, ELEMENTARY, NUMBER};
-use crate::shader::{Data, Module, Shader, module};
+use crate::shader::{Data, Shader};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::shot::{
     Combination, Cut, Cutaway, Dab, Fuzzy, Intersection, IntersectionOpacity, IntersectionPaint, Lighting, Material,

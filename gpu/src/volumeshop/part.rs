@@ -1,7 +1,8 @@
 //! Selections and ghosts as they are drawn (eqs. 2, 3; [VS-2]).
 
 use crate::field::{Scales, gradient};
-use crate::shader::{Constant, Shader, module};
+use crate::module::module;
+use crate::shader::{Constant, Shader};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::shot::{Membership, SelectionParams};
 

@@ -1,8 +1,9 @@
 //! Selections on rays ([VS-2]).
 
 use crate::field::Scales;
+use crate::module::module;
 use crate::number::NUMBER;
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, Shader};
 use crate::transfer;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::shot::{Membership, SelectionParams};

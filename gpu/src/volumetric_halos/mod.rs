@@ -3,13 +3,13 @@
 //! Rays wait for each other from group of planes to group of planes. [`planes`] runs the passes of each group.
 
 pub(crate) mod planes;
-mod stages;
 
 use crate::field::Scales;
+use crate::module::module;
 use crate::number::{ELEMENTARY, NUMBER};
 use crate::place::Place;
 use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
-use crate::shader::{Constant, Data, Shader, module};
+use crate::shader::{Constant, Data, HaloStages, Kept, Shader};
 use crate::{GpuError, Inputs, Precision, transfer, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
@@ -19,7 +19,6 @@ use drypoint_scene::shot::{
 };
 use drypoint_scene::transfer::can_be_above_zero;
 use drypoint_scene::volume::Bricks;
-pub(crate) use stages::{Kept, Stages};
 
 /// The margin of the largest |n·v| of a seed, for the rounding of its powers.
 const FRONTAL_MARGIN: f64 = 1e-5;
@@ -296,7 +295,7 @@ fn add_stages(
             *stage = "measure_gradient_once";
         }
     }
-    stages.halos = Some(Stages {
+    stages.halos = Some(HaloStages {
         kept,
         seed_kept,
         resume: has(&stages.begin_ray, "forget_normal").into_iter().collect(),

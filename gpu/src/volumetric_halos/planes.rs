@@ -2,8 +2,8 @@
 
 use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
+use crate::place::anchor;
 use crate::shader::Shader;
-use crate::volumeshop::funnel::MAPS;
 use crate::{Gpu, GpuError, Precision, ray};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::TriangleMesh;
@@ -46,7 +46,7 @@ pub(crate) struct ImageSize {
 
 /// The size of a shot's images.
 pub(crate) fn image_size(shot: &Shot) -> ImageSize {
-    let guard = shot.halos.list.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0);
+    let guard = ray::guard(shot);
     let rays = shot.view.size.map(|n| n * shot.rays_across);
     // Images that do not fit are refused by their bytes.
     let image = rays.map(|n| n.saturating_add(guard.saturating_mul(2)));
@@ -162,13 +162,13 @@ struct Images {
 }
 
 impl HaloPlanes {
-    /// Makes the images and the passes of a shot; `text` is the whole shader, and `others` are corners of boxes about all that
-    /// can be seen beside the volume on `grid`.
+    /// Makes the images and the passes of a shot. `text` is the whole shader, and `others` are corners of boxes about all that
+    /// can be seen beside the volume on `grid`. `further` is a further binding that rays of the picture read.
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
         (grid, others): (&Grid, Vec<DVec3>),
-        has_funnels: bool,
+        further: Option<u32>,
         (shader, text): (&Shader, &str),
         data_layout: &wgpu::BindGroupLayout,
         precision: Precision,
@@ -198,7 +198,7 @@ impl HaloPlanes {
             gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))
         };
         let mut of_picture = vec![list_entry(0, true), list_entry(1, false)];
-        of_picture.extend(has_funnels.then(|| list_entry(MAPS, true)));
+        of_picture.extend(further.map(|binding| list_entry(binding, true)));
         let params_layout = layout("parameters", &of_picture)?;
         let group = wgpu::BindGroupLayoutEntry {
             ty: wgpu::BindingType::Buffer {
@@ -250,11 +250,11 @@ impl HaloPlanes {
     /// Takes the camera of another shot.
     pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
         self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.other_corners));
-        self.anchor = ray::anchor(shot, grid) as i64;
+        self.anchor = anchor(shot, grid) as i64;
     }
 
-    /// Draws a frame; `maps` are those of funnels.
-    pub(crate) fn draw(&self, canvas: &Canvas<'_>, maps: Option<&wgpu::Buffer>) -> Result<(), GpuError> {
+    /// Draws a frame. `further` is the list of the further binding.
+    pub(crate) fn draw(&self, canvas: &Canvas<'_>, further: Option<(u32, &wgpu::Buffer)>) -> Result<(), GpuError> {
         let gpu = canvas.gpu;
         let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
         let count = self.groups.len() as u64 * u64::from(self.passes.max(1));
@@ -266,7 +266,7 @@ impl HaloPlanes {
         let flags = buffer(gpu, "the list of tiles", &flags, wgpu::BufferUsages::STORAGE)?;
         let [params, state] = gpu.attempt("the halos", || {
             let mut params_entries = vec![entry(0, canvas.params), entry(1, &canvas.picture.out)];
-            params_entries.extend(maps.map(|maps| entry(MAPS, maps)));
+            params_entries.extend(further.map(|(binding, list)| entry(binding, list)));
             let planes =
                 wgpu::BufferBinding { buffer: &group_list, offset: 0, size: wgpu::BufferSize::new(GROUP_BYTES) };
             let planes = wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(planes) };

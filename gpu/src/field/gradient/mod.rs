@@ -1,8 +1,9 @@
 //! Gradients and normals ([REC-2], [NORM-1]).
 
 use super::{Scales, kernel};
-use crate::shader::{Constant, Data, Module, Shader, module};
-use crate::{Interpolation, volumeshop};
+use crate::Interpolation;
+use crate::module::{Module, module};
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::glam::DMat3;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Outside, Reconstruction};
@@ -42,7 +43,12 @@ pub(crate) fn add(
     }
     match moved {
         None => shader.add(&[STILL]),
-        Some(moved) => volumeshop::add_motion(shader, moved),
+        Some(moved) => {
+            shader.add(&[module!("moved")]);
+            for (name, column) in [("moved_x", 0), ("moved_y", 1), ("moved_z", 2)] {
+                shader.block.vector(name, moved.col(column));
+            }
+        }
     }
     shader.add(&[module!("gradient")]);
     let block = &mut shader.block;
@@ -69,7 +75,7 @@ pub(super) fn add_central(shader: &mut Shader, measured: &Measured) {
 
 /// Adds the voxels, once.
 pub(super) fn add_voxels(shader: &mut Shader, measured: &Measured) {
-    const VOXELS: crate::shader::Module = module!("voxels");
+    const VOXELS: crate::module::Module = module!("voxels");
     if shader.modules.contains(&VOXELS) {
         return;
     }

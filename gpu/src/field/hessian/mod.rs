@@ -1,7 +1,8 @@
 //! Hessians and curvatures ([REC-3], [CUR-1] … [CUR-3]).
 
 use super::{Scales, gradient, kernel};
-use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::module::{Module, module};
+use crate::shader::{Constant, Data, Shader};
 use crate::{GpuError, Precision};
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{HessianEstimator, Object, Outside};

@@ -1,8 +1,9 @@
 //! The kernels of values ([REC-1]).
 
 use crate::Interpolation;
+use crate::module::{Module, module};
 use crate::number::NUMBER;
-use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::Kernel;

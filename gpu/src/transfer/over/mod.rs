@@ -1,8 +1,9 @@
 //! Transfer functions over two quantities ([STF-4]).
 
 use crate::field::{Scales, mask};
+use crate::module::{Module, module};
 use crate::number::NUMBER;
-use crate::shader::{Constant, Data, Module, Shader, module};
+use crate::shader::{Constant, Data, Shader};
 use crate::{GpuError, Inputs};
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;

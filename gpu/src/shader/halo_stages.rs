@@ -1,5 +1,6 @@
 //! The functions that rays and seeds of halos call at each step.
 
+use super::function::write_function;
 use std::borrow::Cow;
 use std::fmt::Write;
 
@@ -24,7 +25,7 @@ impl Kept {
 
 /// Functions by their names, called in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Stages {
+pub(crate) struct HaloStages {
     /// Numbers that rays of the picture keep.
     pub(crate) kept: Vec<Kept>,
     /// Numbers that rays of seeds keep.
@@ -47,7 +48,7 @@ pub(crate) struct Stages {
     pub(crate) watched: Vec<usize>,
 }
 
-impl Stages {
+impl HaloStages {
     /// The numbers that a ray of the picture has of its own, beside its colour and its planes.
     pub(crate) fn kept_numbers(&self) -> usize {
         self.kept.len() + self.watched.len()
@@ -70,24 +71,29 @@ impl Stages {
             });
             let again = self.resume.iter().map(|stage| format!("{stage}(ray);"));
             let after = self.after_resume.iter().filter(|_| of == "ray").map(|stage| format!("{stage}();"));
-            function(&mut text, &format!("resume_{of}(number: i32, ray: Ray)"), resume.chain(again).chain(after), None);
+            write_function(
+                &mut text,
+                &format!("resume_{of}(number: i32, ray: Ray)"),
+                resume.chain(again).chain(after),
+                None,
+            );
             let keep = kept.iter().enumerate().map(|(i, kept)| format!("{} = real({});", at(i), kept.name));
-            function(&mut text, &format!("keep_{of}(number: i32)"), keep, None);
+            write_function(&mut text, &format!("keep_{of}(number: i32)"), keep, None);
         }
         let left = self.left.iter().map(|stage| format!("left = {stage}(ray, left);"));
         let left = std::iter::once("var left = run;".to_owned()).chain(left);
-        function(&mut text, "seeds_left(ray: Ray, run: vec2<i32>) -> vec2<i32>", left, Some("left"));
+        write_function(&mut text, "seeds_left(ray: Ray, run: vec2<i32>) -> vec2<i32>", left, Some("left"));
         let next = self.next.iter().map(|stage| format!("next = max(next, {stage}(ray, sample));"));
         let next = std::iter::once("var next = sample.k;".to_owned()).chain(next);
-        function(&mut text, "next_seed_plane(ray: Ray, sample: Sample) -> i32", next, Some("next"));
+        write_function(&mut text, "next_seed_plane(ray: Ray, sample: Sample) -> i32", next, Some("next"));
         let height = self.height.iter().map(|stage| format!("h = {stage}(halo, sample, h);"));
         let height = std::iter::once("var h = real(1.0);".to_owned()).chain(height);
-        function(&mut text, "seed_height(halo: i32, sample: Sample) -> real", height, Some("h"));
+        write_function(&mut text, "seed_height(halo: i32, sample: Sample) -> real", height, Some("h"));
         for (name, stages) in [("seed_rest", &self.measured), ("seed_on_cut", &self.on_cut)] {
             let lines = stages.iter().map(|stage| format!("a = {stage}(ray, sample, a);"));
             let lines = std::iter::once("var a = known;".to_owned()).chain(lines);
             let head = format!("{name}(ray: Ray, sample: Sample, known: Attributes) -> Attributes");
-            function(&mut text, &head, lines, Some("a"));
+            write_function(&mut text, &head, lines, Some("a"));
         }
         // The largest intensities of a ray, and their sums over a pixel.
         for halo in &self.watched {
@@ -95,23 +101,11 @@ impl Stages {
         }
         let at = |i: usize| format!("ray_numbers[ray_place(RAY_KEPT + {}, number)]", self.kept.len() + i);
         let lines = (0..self.watched.len()).map(|i| format!("{} = 0.0;", at(i)));
-        function(&mut text, "begin_watch(number: i32)", lines, None);
+        write_function(&mut text, "begin_watch(number: i32)", lines, None);
         let largest = |(i, halo): (usize, &usize)| format!("{} = max({}, intensity_of({halo}, place));", at(i), at(i));
-        function(&mut text, "watch(number: i32, place: i32)", self.watched.iter().enumerate().map(largest), None);
+        write_function(&mut text, "watch(number: i32, place: i32)", self.watched.iter().enumerate().map(largest), None);
         let sum = |(i, halo): (usize, &usize)| format!("halo_sum_{halo} += {};", at(i));
-        function(&mut text, "sum_intensities(number: i32)", self.watched.iter().enumerate().map(sum), None);
+        write_function(&mut text, "sum_intensities(number: i32)", self.watched.iter().enumerate().map(sum), None);
         text
     }
-}
-
-/// Appends a function.
-fn function(text: &mut String, head: &str, lines: impl Iterator<Item = String>, result: Option<&str>) {
-    let _ = write!(text, "\nfn {head} {{\n");
-    for line in lines {
-        let _ = writeln!(text, "    {line}");
-    }
-    if let Some(result) = result {
-        let _ = writeln!(text, "    return {result};");
-    }
-    text.push_str("}\n");
 }
