@@ -46,7 +46,7 @@ fn table(folder: &Path) -> Result<(), String> {
         jobs.iter().map(Job::renderer).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     let mut samples = vec![0u64; PAPER.len()];
     measure(&views, |i, view| {
-        let shot = jobs[i].shot_from(view.clone()).map_err(|e| e.to_string())?;
+        let shot = jobs[i].shot().map_err(|e| e.to_string())?.seen_from(view.clone());
         renderers[i].turn(&shot).map_err(|e| e.to_string())?;
         let start = Instant::now();
         let (picture, counts) = renderers[i].again(&|_| ());
@@ -69,7 +69,7 @@ fn on_card(jobs: &[Job], views: &[View]) -> Result<(), String> {
     let mut frames: Vec<GpuFrames<'_>> =
         jobs.iter().map(|job| GpuFrames::new(job, &gpu)).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     measure(views, |i, view| {
-        let shot = jobs[i].shot_from(view.clone()).map_err(|e| e.to_string())?;
+        let shot = jobs[i].shot().map_err(|e| e.to_string())?.seen_from(view.clone());
         frames[i].turn(&shot).map_err(|e| e.to_string())?;
         let start = Instant::now();
         let on_card = frames[i].show().map_err(|e| e.to_string())?;

@@ -13,6 +13,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, mark_counts};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
+use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
 use frame_writer::FrameWriter;
@@ -23,6 +24,8 @@ pub struct Drawing<'a> {
     job: &'a Job,
     first: View,
     orbit: Option<Orbit>,
+    /// The shot of the first camera, if other frames have others.
+    shot: Option<Shot>,
     renderer: Option<VolumeRenderer<'a>>,
     marks: Option<MarkFrames<'a>>,
 }
@@ -74,7 +77,9 @@ impl<'a> Drawing<'a> {
         if let (Some(marks), Some(gpu)) = (&mut marks, card) {
             marks.on_gpu(job, gpu)?;
         }
-        Ok(Self { job, first: job.view()?, orbit: job.scene.orbit, renderer, marks })
+        let (first, orbit) = (job.view()?, job.scene.orbit);
+        let shot = orbit.filter(|_| draws).map(|_| job.shot()).transpose()?;
+        Ok(Self { job, first, orbit, shot, renderer, marks })
     }
 
     /// Renders the volume plane by plane instead. The picture is the same.
@@ -131,9 +136,8 @@ impl<'a> Drawing<'a> {
         // The volume from the frame's camera, or the picture behind the marks.
         let picture = match &mut self.renderer {
             Some(renderer) => {
-                if self.orbit.is_some() {
-                    let shot = self.job.shot_from(view)?;
-                    renderer.turn(&shot, self.job)?;
+                if let Some(shot) = &self.shot {
+                    renderer.turn(&shot.seen_from(view), self.job)?;
                 }
                 let (picture, own) = renderer.frame(progress)?;
                 counts.add(&own);

@@ -1,12 +1,13 @@
 //! Pictures of jobs on graphics cards.
 
 use crate::Failure;
-use crate::job::{Job, KnobVariant};
+use crate::job::{Job, KnobVariant, render_failure};
 use crate::stippling::PointTest;
+use drypoint_gpu::{CardInputs, Renderer};
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
 pub use drypoint_gpu::{HiddenPoints, Hiding, Volume};
-use drypoint_gpu::{Inputs, ObjectInputs, PartInputs, Renderer};
 use drypoint_reference::ray::lattice::samples_in;
+use drypoint_reference::ray::measure;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
@@ -14,6 +15,7 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::Shot;
+use drypoint_scene::tables::Scene;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -39,7 +41,7 @@ impl<'a> GpuJob<'a> {
     /// Same errors as [`Job::renderer`], and those of the adapter.
     pub fn new(job: &'a Job, gpu: &'a Gpu, precision: Precision) -> Result<Self, Failure> {
         let shot = job.shot()?;
-        let measured = job.renderer()?.measured(&shot);
+        let measured = measured(job, &job.scene, &job.plan, &shot)?;
         Self::upload(job, gpu, shot, measured, &job.plan, precision)
     }
 
@@ -49,7 +51,7 @@ impl<'a> GpuJob<'a> {
     /// Same errors as [`GpuJob::new`].
     pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
         let shot = job.shot_of(variant)?;
-        let measured = job.renderer_of(variant)?.measured(&shot);
+        let measured = measured(job, &variant.scene, &variant.plan, &shot)?;
         Self::upload(job, gpu, shot, measured, &variant.plan, precision)
     }
 
@@ -73,21 +75,6 @@ impl<'a> GpuJob<'a> {
         Ok(Self { job, gpu, shot, measured, volumes, places, has_lines: plan.has_pass(Pass::MergedStrokes) })
     }
 
-    /// The data that the job's shot names, without its objects.
-    fn inputs<'j>(&'j self, job: &'j Job, measured: &'j Measured) -> Inputs<'j> {
-        Inputs {
-            volume: &job.volume,
-            measured,
-            labels: job.labels.as_ref(),
-            further: job.further.each_ref().map(Option::as_ref),
-            styles: &job.styles,
-            background: job.backdrop(&self.shot),
-            meshes: &[],
-            has_lines: false,
-            objects: ObjectInputs::default(),
-        }
-    }
-
     /// Returns a renderer of the job's picture.
     ///
     /// # Errors
@@ -101,20 +88,8 @@ impl<'a> GpuJob<'a> {
     /// # Errors
     /// Same errors as [`GpuJob::renderer`].
     pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<Renderer<'a>, Failure> {
-        let [own, of_parts @ ..] = &*self.measured else { return Err(failure(&GpuError::Material, self.job)) };
-        let objects = &self.job.objects;
-        let parts = objects.jobs().zip(of_parts).zip(&self.places[1..]);
-        let parts = parts.map(|((job, measured), &place)| PartInputs { inputs: self.inputs(job, measured), place });
-        let inputs = Inputs {
-            meshes: &self.job.meshes,
-            has_lines: self.has_lines,
-            objects: ObjectInputs {
-                parts: parts.collect(),
-                selections: objects.selections(),
-                pictures: objects.pictures(&self.shot),
-            },
-            ..self.inputs(self.job, own)
-        };
+        let (measured, places, has_lines) = (&self.measured, &self.places, self.has_lines);
+        let inputs = CardInputs { data: &self.job.inputs(&self.shot), measured, places, has_lines };
         let renderer = Renderer::edited(self.gpu, &self.volumes, &self.shot, &inputs, edit);
         renderer.map_err(|error| failure(&error, self.job))
     }
@@ -246,6 +221,12 @@ impl<'a> GpuFrames<'a> {
         counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
         Ok((picture, counts))
     }
+}
+
+/// Measures the data of a shot of a job, which needs no renderer.
+fn measured(job: &Job, scene: &Scene, plan: &Plan, shot: &Shot) -> Result<Vec<Measured>, Failure> {
+    job.room_for_preparing(scene, plan)?;
+    measure(shot, &job.inputs(shot)).map_err(|error| render_failure(&error, scene))
 }
 
 /// Prepares the test of which points a surface hides.

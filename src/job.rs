@@ -25,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod assets;
 mod failures;
 mod focus;
 mod iso;
@@ -35,30 +36,30 @@ mod parts;
 mod provenance;
 mod room;
 
-use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
+use assets::Assets;
 use drypoint_output::{exr, png};
-use drypoint_reference::ray::{Backdrop, Inputs, RenderError, Renderer};
+use drypoint_reference::ray::{RenderError, Renderer};
 use drypoint_reference::suggest;
+use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::inputs::Inputs;
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
-use drypoint_scene::plan::{NodesPlan, Pass, Plan, Quantity};
-use drypoint_scene::shot::{Clipping, Shot, VolumeFacts};
+use drypoint_scene::plan::{NodesPlan, Pass, Plan};
+use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::space::Grid;
-use drypoint_scene::style::Style;
 use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::{Function, node_values};
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
-use drypoint_scene::volume::labels::LabelVolume;
 pub(crate) use failures::render_failure;
 use failures::{shot_failure, view_failure};
 use iso::find_iso_values;
-use load::{background, function_failure, further, halo_labels, lighting_table, load_volume, meshes, named, styles};
+use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
@@ -81,13 +82,8 @@ pub struct Job {
     target: RenderTarget,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
-    /// Transfer function of the volume, or of the colours of dots.
-    function: Option<Arc<Function>>,
-    /// The label volume, if something reads it.
-    pub(crate) labels: Option<LabelVolume>,
-    pub(crate) further: [Option<Volume>; 2],
-    /// The styles that the function names, then those of caps.
-    pub(crate) styles: Vec<Style>,
+    /// The data that the function of the volume, or of the colours of dots, and the material name.
+    pub(crate) assets: Assets,
     /// The meshes that the scene names, in the world.
     pub(crate) meshes: Vec<TriangleMesh>,
     /// The premultiplied picture behind the volume, if the scene has one.
@@ -174,21 +170,11 @@ impl Job {
     /// # Errors
     /// Same errors as [`Job::load`].
     pub fn with_volume_for(
-        scene: Scene,
+        mut scene: Scene,
         volume: impl Into<Arc<Volume>>,
         target: RenderTarget,
     ) -> Result<Self, Failures> {
-        Self::with_shared(scene, volume.into(), target, None)
-    }
-
-    /// Loads what `target` needs for a volume that others may hold, too. Of a part of an object `main` is the grid of
-    /// `[volume]`.
-    fn with_shared(
-        mut scene: Scene,
-        volume: Arc<Volume>,
-        target: RenderTarget,
-        main: Option<&Grid>,
-    ) -> Result<Self, Failures> {
+        let volume = volume.into();
         let given = Given { transfer: scene.transfer.clone(), halos: scene.halos.clone() };
         // The volume, the plan over it, and the plan's warnings of eye and step.
         let volume = match scene.volume.ids {
@@ -213,91 +199,27 @@ impl Job {
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
         something_is_drawn(&scene, target)?;
-        let mut failures = Vec::new();
-        let labels = if plan.reads_labels() {
-            SceneLabels::load(&scene.volume, &volume, &mut failures)
-        } else {
-            SceneLabels::default()
-        };
-        plan.warnings.extend(labels.warning(&scene.volume, &volume));
-        if failures.is_empty() && plan.needs_at_seeds(Quantity::Label) {
-            halo_labels(&mut scene, &labels.names, main.is_some(), &mut failures);
-        }
-        // Values that the scene leaves to the data: iso-values and the transfer function.
-        let mut counts = Counts::default();
+        // What the scene leaves to the data, and what it names; all faults are reported together.
+        let (mut counts, mut failures) = (Counts::default(), Vec::new());
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
-        let calls_for_function = calls_for_function(&plan, &scene);
-        let range = scene.volume.range.unwrap_or_else(|| volume.range());
-        // An iso-surface needs no transfer function.
-        let mut function = scene.transfer.is_none().then(Function::nothing);
-        if let Some(transfer) = scene.transfer.as_mut().filter(|_| calls_for_function) {
-            if transfer.is_automatic() {
-                suggest::fill_function(transfer, &volume, scene.volume.outside, &mut counts);
-            }
-            let found = Function::new(transfer, range, &volume, &|name| labels.names.id(name));
-            function = found.unwrap_or_else(|errors| {
-                // Without the table of labels every name would be unknown.
-                if failures.is_empty() {
-                    failures.extend(errors.iter().map(|error| function_failure(error, &scene.given, &labels.names)));
-                }
-                None
-            });
-        }
-        // Everything else that the scene names; all faults are reported together.
-        let mut styles_of = |names: &mut dyn Iterator<Item = &str>| styles(&scene, names, &mut failures);
-        let mut styles = match &function {
-            Some(Function::Style { names, .. }) => styles_of(&mut names.iter().map(String::as_str)),
-            None if calls_for_function => styles_of(&mut scene.transfer.iter().flat_map(named)),
-            Some(Function::Regular(_)) | None => Vec::new(),
-        };
-        if plan.has_pass(Pass::Rays) {
-            // Those of caps come last.
-            let of_caps = match main {
-                Some(grid) => Clipping::styles_of_part(&scene, grid),
-                None => Clipping::new(&scene, volume.grid()).styles,
-            };
-            styles.extend(styles_of(&mut of_caps.iter().map(String::as_str)));
-        }
-        lighting_table(&mut scene, &plan, &mut failures);
+        let assets = Assets::load(&mut scene, &mut plan, &volume, None, &mut counts, &mut failures);
         let background = background(&scene, target, &mut failures);
-        let further = if plan.has_pass(Pass::Rays) { further(&scene, &mut failures) } else { [None, None] };
         let meshes = if plan.has_pass(Pass::Rays) { meshes(&scene, &mut failures) } else { Vec::new() };
         Failures::check(failures)?;
-        if calls_for_function && function.is_none() {
-            let place = scene.given.position("transfer.nodes");
-            return Err(Failure::new("the transfer function has no node", place, "give it at least one").into());
-        }
         let volume = match scene.volume.parts {
             None => volume,
             Some(_) => {
                 let volume = Arc::unwrap_or_clone(volume);
-                Arc::new(parts::isolate(&scene, function.as_ref(), volume, &mut counts)?)
+                Arc::new(parts::isolate(&scene, assets.function.as_deref(), volume, &mut counts)?)
             }
         };
-        let (function, labels) = (function.map(Arc::new), labels.volume);
-        let mut job = Self {
-            scene,
-            plan,
-            volume,
-            counts,
-            target,
-            view,
-            function,
-            labels,
-            further,
-            styles,
-            meshes,
-            background,
-            objects: Objects::default(),
-        };
+        let objects = Objects::default();
+        let mut job = Self { scene, plan, volume, counts, target, view, assets, meshes, background, objects };
         if job.draws_volume() && !job.scene.objects.is_empty() {
             job.objects = Objects::load(&job, &given)?;
             job.plan.warnings.extend(job.objects.warnings(&job.scene));
         }
-        // Those of a part are the picture's.
-        if main.is_none() {
-            job.pick_foci()?;
-        }
+        job.pick_foci()?;
         Ok(job)
     }
 
@@ -319,22 +241,14 @@ impl Job {
 
     /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
-        self.function.as_deref()
+        self.assets.function.as_deref()
     }
 
     /// Returns the values of the nodes of the scene's function and of its objects' functions, of those that are in another
     /// unit.
     pub fn node_values(&self) -> Vec<NodesPlan> {
-        let own = self.own_node_values("transfer.unit".into(), None);
+        let own = values_of_nodes(&self.scene, &self.volume, "transfer.unit".into(), None);
         own.into_iter().chain(self.objects.node_values(&self.scene)).collect()
-    }
-
-    /// Returns the values of the nodes of the job's own function, if they are in another unit. See [`NodesPlan`].
-    fn own_node_values(&self, key: String, within: Option<usize>) -> Option<NodesPlan> {
-        let transfer = self.scene.transfer.as_ref()?;
-        let range = self.scene.volume.range.unwrap_or_else(|| self.volume.range());
-        let values = node_values(transfer, range, &self.volume);
-        (!values.is_empty()).then(|| NodesPlan { key, within, unit: transfer.unit.name(), values })
     }
 
     /// Returns the scene's camera in numbers.
@@ -350,15 +264,7 @@ impl Job {
     /// # Errors
     /// A volume that is not drawn itself, a camera without direction, or a length without size.
     pub fn shot(&self) -> Result<Shot, Failure> {
-        self.shot_from(self.view()?)
-    }
-
-    /// Returns the shot of another camera.
-    ///
-    /// # Errors
-    /// Same errors as [`Job::shot`].
-    pub fn shot_from(&self, view: View) -> Result<Shot, Failure> {
-        self.resolve(&self.scene, &self.plan, self.function.as_ref(), view)
+        self.resolve(&self.scene, &self.plan, self.assets.function.as_ref(), self.view()?)
     }
 
     /// Returns a renderer for any number of frames.
@@ -377,7 +283,7 @@ impl Job {
         // No knob changes a function of two quantities, labels among them.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        KnobVariant { function: function.map(Arc::new).or_else(|| self.function.clone()), scene, plan }
+        KnobVariant { function: function.map(Arc::new).or_else(|| self.assets.function.clone()), scene, plan }
     }
 
     /// Returns a renderer of a scene with other knobs.
@@ -438,8 +344,7 @@ impl Job {
         shot: &Shot,
         make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
     ) -> Result<Renderer<'a>, Failure> {
-        room_for_passes(self, plan)?;
-        room_for_table(scene)?;
+        self.room_for_preparing(scene, plan)?;
         let renderer = make(shot, self.inputs(shot)).map_err(|error| render_failure(&error, scene))?;
         // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
         let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
@@ -448,16 +353,17 @@ impl Job {
         Ok(renderer)
     }
 
+    /// Checks that there is memory for the passes over voxels and for the table of the function.
+    pub(crate) fn room_for_preparing(&self, scene: &Scene, plan: &Plan) -> Result<(), Failure> {
+        room_for_passes(self, plan)?;
+        room_for_table(scene)
+    }
+
     /// Returns the data that a shot names.
     pub(crate) fn inputs(&self, shot: &Shot) -> Inputs<'_> {
         Inputs {
-            volume: &self.volume,
-            labels: self.labels.as_ref(),
-            further: self.further.each_ref().map(Option::as_ref),
-            styles: &self.styles,
             meshes: &self.meshes,
-            background: self.backdrop(shot),
-            objects: self.objects.inputs(shot),
+            ..self.objects.inputs(shot, Inputs::of(self.assets.of(&self.volume), self.backdrop(shot)))
         }
     }
 
@@ -530,6 +436,14 @@ pub fn bare_for(
     let outlines = preset.outlines.clone().filter(|_| stipples.is_some());
     let scene = Scene { transfer, surface, picture, stipples, outlines, ..Scene::for_volume(source) };
     suggest::fill(scene, volume, size, counts).map_err(|no_room| no_room_for_content(volume, place, &no_room))
+}
+
+/// Returns the values of the nodes of a scene's function over a volume, if they are in another unit. See [`NodesPlan`].
+fn values_of_nodes(scene: &Scene, volume: &Volume, key: String, within: Option<usize>) -> Option<NodesPlan> {
+    let transfer = scene.transfer.as_ref()?;
+    let range = scene.volume.range.unwrap_or_else(|| volume.range());
+    let values = node_values(transfer, range, volume);
+    (!values.is_empty()).then(|| NodesPlan { key, within, unit: transfer.unit.name(), values })
 }
 
 /// Returns the plan of a part of a scene.

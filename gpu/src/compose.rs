@@ -8,7 +8,7 @@ use crate::place::Place;
 use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
-    GpuError, Inputs, Interpolation, Precision, field, interactive_volume_illustration, mesh, ray, shading,
+    CardInputs, GpuError, Interpolation, Precision, field, interactive_volume_illustration, mesh, ray, shading,
     style_transfer_functions, surface, transfer, volumeshop, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
@@ -28,29 +28,32 @@ pub(crate) fn no_normal(precision: Precision) -> f64 {
 pub(crate) fn shader(
     shot: &Shot,
     layers: &[LayerKind],
-    inputs: &Inputs<'_>,
+    inputs: &CardInputs<'_>,
     precision: Precision,
     interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
-    let place = Place::own(shot, inputs.volume.grid());
-    let (mut shader, scales) = of_volume((shot, layers, false), inputs, &place, precision, interpolation)?;
+    let place = Place::own(shot, inputs.data.main.volume.grid());
+    let (mut shader, scales) = of_volume((shot, layers, false), (inputs, 0), &place, precision, interpolation)?;
     objects::add(&mut shader, shot, inputs, &scales, precision)?;
     Ok((shader, scales))
 }
 
-/// The shader of a shot without its objects, for a volume at a place; `is_part` says whether it is one of a picture's parts.
+/// The shader of a shot without its objects, for the data of the object `which` at a place; `is_part` says whether that is one
+/// of a picture's parts.
 fn of_volume(
     (shot, layers, is_part): (&Shot, &[LayerKind], bool),
-    inputs: &Inputs<'_>,
+    (inputs, which): (&CardInputs<'_>, usize),
     place: &Place,
     precision: Precision,
     interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
     // The grid of the data is not that of the place.
-    let ([object], measured, grid) = (&shot.objects, inputs.measured, inputs.volume.grid());
+    let (object, own_inputs) = (shot.background(), inputs.object(which)?);
+    let (data, measured) = (own_inputs.data, own_inputs.measured);
+    let (grid, has_lines) = (data.volume.grid(), inputs.has_lines && !is_part);
     let mut shader = Shader { interpolation, ..Shader::default() };
     let scales = Scales::new(measured, grid);
     // The field and its rays.
@@ -60,8 +63,8 @@ fn of_volume(
     // Samples.
     transfer::add_nodes(&mut shader, &object.function, &scales, precision);
     let cast = if shot.combination.is_some() { volumeshop::CAST_AMONG } else { ray::CAST_ALONE };
-    ray::add_cast(&mut shader, shot, cast, inputs.has_lines);
-    if let Some(mask) = inputs.volume.mask() {
+    ray::add_cast(&mut shader, shot, cast, has_lines);
+    if let Some(mask) = data.volume.mask() {
         field::mask::add(&mut shader, mask, grid);
         ray::add_mask(&mut shader);
     }
@@ -69,8 +72,8 @@ fn of_volume(
         ray::add_bricks(&mut shader, shot, bricks, &scales, precision);
     }
     // The styles of caps follow those of the function.
-    let of_function = inputs.styles.len().checked_sub(shot.clipping.styles.len()).ok_or(GpuError::Material)?;
-    let (styles, of_caps) = inputs.styles.split_at(of_function);
+    let of_function = data.styles.len().checked_sub(shot.clipping.styles.len()).ok_or(GpuError::Material)?;
+    let (styles, of_caps) = data.styles.split_at(of_function);
     let clips = !shot.clipping.planes.is_empty();
     if clips {
         ray::add_clip(&mut shader, &shot.clipping, styles.len());
@@ -94,7 +97,7 @@ fn of_volume(
         ray::add_gradient(&mut shader, measured, &scales);
     }
     if query.hessian {
-        let is_integer = inputs.volume.voxels().voxel_type().is_integer();
+        let is_integer = data.volume.voxels().voxel_type().is_integer();
         field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
         ray::add_curvature(&mut shader, query);
     }
@@ -106,7 +109,7 @@ fn of_volume(
     }
     let rows = object.function.nodes().2;
     if let Some(rows) = rows {
-        transfer::over::add(&mut shader, shot, rows, inputs, &scales)?;
+        transfer::over::add(&mut shader, shot, rows, &own_inputs, &scales)?;
     }
     let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
     let mut with_levels = false;
@@ -131,10 +134,10 @@ fn of_volume(
         ray::add_end(&mut shader);
     }
     if !shot.meshes.is_empty() {
-        mesh::add(&mut shader, shot, inputs, scales.value(0.0), precision)?;
+        mesh::add(&mut shader, shot, (inputs.data.meshes, &own_inputs), scales.value(0.0), precision)?;
     }
     if let Some(surface) = &shot.surface {
-        let has_mask = inputs.volume.mask().is_some();
+        let has_mask = data.volume.mask().is_some();
         let (kernel, slack) = (object.reconstruction.kernel, ray::rounding(&scales, precision));
         surface::add_search(&mut shader, kernel, surface.iso, measured, &scales, slack, has_mask);
         surface::add(&mut shader, shot, surface, has_mask);
@@ -146,14 +149,14 @@ fn of_volume(
     if !shot.meshes.is_empty() {
         mesh::add_search(&mut shader);
     }
-    if ray::ends_rays(shot) && inputs.has_lines {
+    if ray::ends_rays(shot) && has_lines {
         ray::lines::add_surface(&mut shader);
     }
     // Pixels.
-    ray::add_pixels(&mut shader, shot, inputs.background);
+    ray::add_pixels(&mut shader, shot, inputs.data.background);
     ray::layers::add(&mut shader, layers);
     if has_halos {
-        volumetric_halos::add(&mut shader, (shot, is_part), own, (inputs, place), &scales, precision)?;
+        volumetric_halos::add(&mut shader, (shot, is_part), own, (&own_inputs, place), &scales, precision)?;
     }
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))
@@ -161,7 +164,7 @@ fn of_volume(
 
 /// The numbers of a shader that depend on the camera, of a shot for a volume at a place.
 pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
-    let [object] = &shot.objects;
+    let object = shot.background();
     let mut block = Block::default();
     ray::add_view(&mut block, shot, place)?;
     add_near(&mut block, shot, place);

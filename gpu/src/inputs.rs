@@ -1,52 +1,46 @@
-//! The data that a shot names.
+//! The data that a shader is put together from.
 
-use drypoint_scene::backdrop::Backdrop;
-use drypoint_scene::intersection_picture::IntersectionPicture;
+use crate::GpuError;
+use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::measured::Measured;
-use drypoint_scene::mesh::TriangleMesh;
-use drypoint_scene::style::Style;
-use drypoint_scene::volume::Selection;
-use drypoint_scene::volume::labels::LabelVolume;
 
-/// The data that a shot names, beside the volume's numbers.
-#[derive(Clone, Debug)]
-pub struct Inputs<'a> {
-    /// The volume: its grid and its mask.
-    pub volume: &'a drypoint_scene::volume::Volume,
-    /// The facts of the volume.
-    pub measured: &'a Measured,
-    /// The labels beside the volume, where the function reads them ([STF-13]).
-    pub labels: Option<&'a LabelVolume>,
-    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
-    pub further: [Option<&'a drypoint_scene::volume::Volume>; 2],
-    /// The styles that the function names, then those of caps.
-    pub styles: &'a [Style],
-    /// The background.
-    pub background: Backdrop<'a>,
-    /// The meshes of the shot, in its order, in the world ([VS-12]).
-    pub meshes: &'a [TriangleMesh],
+/// The data that a shot names, with what was measured of them and uploaded.
+#[derive(Clone, Copy, Debug)]
+pub struct CardInputs<'a> {
+    /// The data.
+    pub data: &'a Inputs<'a>,
+    /// The facts of each of [`Shot::objects`](drypoint_scene::shot::Shot::objects), in their order.
+    pub measured: &'a [Measured],
+    /// For each of these the place of its volume among those that are uploaded.
+    pub places: &'a [usize],
     /// Whether frames can have lines inside the volume ([HATCH-14] d).
     pub has_lines: bool,
-    /// The data that the shot's objects name ([VS-2]).
-    pub objects: ObjectInputs<'a>,
 }
 
-/// The data that the objects of a shot name, each list in the shot's order.
-#[derive(Clone, Debug, Default)]
-pub struct ObjectInputs<'a> {
-    /// The data of selections and ghosts.
-    pub parts: Vec<PartInputs<'a>>,
-    /// The selection volumes; none where the selection is another one.
-    pub selections: Vec<Option<&'a Selection>>,
-    /// The pictures of intersections whose colour is one.
-    pub pictures: Vec<Option<&'a IntersectionPicture>>,
-}
-
-/// The data that a selection or a ghost names.
-#[derive(Clone, Debug)]
-pub struct PartInputs<'a> {
-    /// The data of the part as a picture of its own.
-    pub inputs: Inputs<'a>,
+/// The data of one object of a shot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ObjectInputs<'a> {
+    /// The data.
+    pub(crate) data: ObjectData<'a>,
+    /// The facts of its volume.
+    pub(crate) measured: &'a Measured,
     /// The place of its volume among those that are uploaded.
-    pub place: usize,
+    pub(crate) place: usize,
+}
+
+impl<'a> CardInputs<'a> {
+    /// The data of one of the shot's objects.
+    ///
+    /// # Errors
+    /// Data that were not handed over.
+    pub(crate) fn object(&self, which: usize) -> Result<ObjectInputs<'a>, GpuError> {
+        let data = match which.checked_sub(1) {
+            None => Some(&self.data.main),
+            Some(part) => self.data.parts.get(part),
+        };
+        match (data, self.measured.get(which), self.places.get(which)) {
+            (Some(&data), Some(measured), Some(&place)) => Ok(ObjectInputs { data, measured, place }),
+            _ => Err(GpuError::Material),
+        }
+    }
 }

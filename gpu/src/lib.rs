@@ -39,7 +39,7 @@ mod volumetric_halos;
 
 pub use device::{Gpu, Interpolation, Precision, WANTED};
 pub use error::GpuError;
-pub use inputs::{Inputs, ObjectInputs, PartInputs};
+pub use inputs::CardInputs;
 pub use kernel::Kernel;
 pub use renderer::Renderer;
 pub use volume::Volume;

@@ -14,7 +14,7 @@ use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::{HaloPlanes, corners};
-use crate::{Gpu, GpuError, Inputs, Precision, Volume, compose, volumeshop};
+use crate::{CardInputs, Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
@@ -62,7 +62,7 @@ impl<'g> Renderer<'g> {
     ///
     /// # Errors
     /// An effect without a shader, data that do not fit, a driver that refuses.
-    pub fn new(gpu: &'g Gpu, volumes: &[Volume], shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
+    pub fn new(gpu: &'g Gpu, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volumes, shot, inputs, &|text| text)
     }
 
@@ -74,7 +74,7 @@ impl<'g> Renderer<'g> {
         gpu: &'g Gpu,
         volumes: &[Volume],
         shot: &Shot,
-        inputs: &Inputs<'_>,
+        inputs: &CardInputs<'_>,
         edit: &dyn Fn(String) -> String,
     ) -> Result<Self, GpuError> {
         let precision = volumes.first().ok_or(GpuError::Material)?.precision;
@@ -83,7 +83,7 @@ impl<'g> Renderer<'g> {
         let text = edit(shader.text(precision));
         let data_layout = data_layout(gpu, &shader)?;
         let data = bind_data(gpu, volumes, &shader, &data_layout, precision)?;
-        let grid = inputs.volume.grid();
+        let grid = inputs.data.main.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let objects = PlacesOfObjects::new(shot, inputs)?;
         let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
@@ -92,7 +92,7 @@ impl<'g> Renderer<'g> {
             let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
-            let others = inputs.meshes.iter().flat_map(corners).chain(objects.corners()).collect();
+            let others = inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect();
             let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
             let planes = HaloPlanes::new(gpu, shot, (grid, others), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))

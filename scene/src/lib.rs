@@ -13,6 +13,7 @@ pub mod counts;
 pub(crate) mod document;
 pub mod file;
 pub mod fragments;
+pub mod inputs;
 pub mod intersection_picture;
 pub mod knobs;
 mod length;

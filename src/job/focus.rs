@@ -35,7 +35,7 @@ impl Job {
         let mut scene = Scene { halos: Vec::new(), ..self.scene.clone() };
         scene.picture.layers = vec![LayerKind::Beauty];
         let plan = self.plan_of(&scene);
-        let shot = self.resolve(&scene, &plan, self.function.as_ref(), self.view()?)?;
+        let shot = self.resolve(&scene, &plan, self.assets.function.as_ref(), self.view()?)?;
         let renderer = self.made_ready(&scene, &plan, &shot, Renderer::new)?;
         let (mut picked, mut failures) = (PickedFoci::new(), Vec::new());
         for (halo, pixels) in foci {

@@ -57,11 +57,11 @@ impl Job {
     /// Labels or names that cannot be read.
     pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
         let table = &self.scene.volume;
-        let unread = table.labels.clone().filter(|_| self.labels.is_none());
+        let unread = table.labels.clone().filter(|_| self.assets.labels.is_none());
         let mut failures = Vec::new();
         let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &self.volume, &mut failures);
         Failures::check(failures)?;
-        self.labels = labels.volume.or(self.labels.take());
+        self.assets.labels = labels.volume.or(self.assets.labels.take());
         Ok(labels.names)
     }
 }

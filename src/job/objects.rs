@@ -1,12 +1,14 @@
 //! The objects of a job: their data, selections and looks ([VS-2]).
 
+use super::assets::Assets;
 use super::room::room_for_parts;
-use super::{Job, RenderTarget, is_integer, plan_for, shot_failure};
+use super::{Job, RenderTarget, is_integer, plan_for, shot_failure, something_is_drawn, values_of_nodes};
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
 use drypoint_output::read::read_intersection_picture;
-use drypoint_reference::ray::ObjectInputs;
+use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::inputs::Inputs;
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::parallel;
 use drypoint_scene::plan::{NodesPlan, Plan};
@@ -29,12 +31,14 @@ pub(crate) struct Objects {
     pictures: Vec<Option<IntersectionPicture>>,
 }
 
-/// A selection or a ghost with everything that its look names.
+/// A selection or a ghost with everything that its function and its material name.
 struct ObjectPart {
     object: usize,
     role: Role,
-    /// The part as a picture of its own.
-    job: Job,
+    /// Its tables ([`Scene::of_part`]), with the function that was found and the ids of labels.
+    tables: Scene,
+    volume: Arc<Volume>,
+    assets: Assets,
     /// The grid of its data in the world of `[volume]`.
     grid: Grid,
 }
@@ -51,7 +55,7 @@ impl Objects {
     /// Loads the objects of a job, of which everything else is loaded.
     ///
     /// # Errors
-    /// Data that cannot be read, and what each part of a picture of its own could be refused for.
+    /// Data that cannot be read, a part that draws nothing, and faults of its function and its material.
     pub(super) fn load(main: &Job, given: &Given) -> Result<Self, Failures> {
         let (scene, volume) = (&main.scene, &main.volume);
         let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
@@ -86,24 +90,28 @@ impl Objects {
             read_intersection_picture(path).map_err(|error| failures.push(failed(error))).ok()
         });
         let pictures = pictures.collect();
-        Failures::check(failures)?;
+        Failures::check(std::mem::take(&mut failures))?;
         room_for_parts(scene)?;
-        // The parts, each as a picture of its own.
         let mut parts = Vec::new();
         for (object, role) in scene.parts() {
             let table = &scene.objects[object];
-            let mut of_part = match table.volume {
+            let mut tables = match table.volume {
                 None => scene.of_part(object, role),
                 Some(_) => Scene { halos: given.halos.clone(), ..scene.clone() }.of_part(object, role),
             };
             let has_function = table.transfer.is_some() || table.ghost.as_ref().is_some_and(|g| g.transfer.is_some());
             if table.volume.is_some() && !has_function {
-                of_part.transfer.clone_from(&given.transfer);
+                tables.transfer.clone_from(&given.transfer);
             }
-            let data = data(object);
-            let job = Job::with_shared(of_part, data.clone(), RenderTarget::Picture, Some(volume.grid()))?;
-            let grid = Anatomy::between(data.grid(), data.anatomy(), volume.anatomy());
-            parts.push(ObjectPart { object, role, job, grid });
+            something_is_drawn(&tables, RenderTarget::Picture)?;
+            let volume = data(object).clone();
+            let mut plan = plan_for(&tables, RenderTarget::Picture);
+            plan.settle(&tables, is_integer(&volume));
+            let (main_grid, counts) = (Some(main.volume.grid()), &mut Counts::default());
+            let assets = Assets::load(&mut tables, &mut plan, &volume, main_grid, counts, &mut failures);
+            Failures::check(std::mem::take(&mut failures))?;
+            let grid = Anatomy::between(volume.grid(), volume.anatomy(), main.volume.anatomy());
+            parts.push(ObjectPart { object, role, tables, volume, assets, grid });
         }
         Ok(Self { parts, selections, facts, pictures })
     }
@@ -125,7 +133,7 @@ impl Objects {
             let has_function = key != "transfer.unit";
             let within = (!has_function && scene.objects[part.object].volume.is_some()).then_some(part.object);
             if has_function || within.is_some() {
-                found.extend(part.job.own_node_values(key, within));
+                found.extend(values_of_nodes(&part.tables, &part.volume, key, within));
             }
         }
         // A ghost may share its selection's function.
@@ -148,40 +156,24 @@ impl Objects {
         let facts = self.parts.iter().zip(&scenes).map(|(part, (scene, plan))| PartFacts {
             scene,
             plan,
-            function: part.job.function.clone().unwrap_or_else(|| Arc::new(Function::nothing())),
+            function: part.assets.function.clone().unwrap_or_else(|| Arc::new(Function::nothing())),
             grid: &part.grid,
-            is_integer: is_integer(&part.job.volume),
-            range: part.job.scene.volume.range.unwrap_or_else(|| part.job.volume.range()),
+            is_integer: is_integer(&part.volume),
+            range: part.tables.volume.range.unwrap_or_else(|| part.volume.range()),
         });
         let facts: Vec<PartFacts<'_>> = facts.collect();
         shot.with_objects(scene, main, range, &self.facts, &facts).map_err(|error| shot_failure(&error, scene))
     }
 
-    /// Returns the data that a shot with the objects names.
-    pub(super) fn inputs(&self, shot: &Shot) -> ObjectInputs<'_> {
-        ObjectInputs {
-            // A part is a picture without objects.
-            parts: self.jobs().map(|job| job.inputs(shot)).collect(),
-            selections: self.selections(),
-            pictures: self.pictures(shot),
+    /// Adds the data that a shot names of objects to those of its main volume.
+    pub(super) fn inputs<'a>(&'a self, shot: &Shot, inputs: Inputs<'a>) -> Inputs<'a> {
+        let Some(combination) = shot.combination.as_ref() else { return inputs };
+        Inputs {
+            parts: self.parts.iter().map(|part| part.assets.of(&part.volume)).collect(),
+            selections: self.selections.iter().map(Option::as_ref).collect(),
+            pictures: combination.intersections.iter().map(|table| self.pictures[table.table].as_ref()).collect(),
+            ..inputs
         }
-    }
-
-    /// Selections and ghosts as pictures of their own, in the order of [`Scene::parts`].
-    pub(crate) fn jobs(&self) -> impl Iterator<Item = &Job> {
-        self.parts.iter().map(|part| &part.job)
-    }
-
-    /// The selection volume of each object that has one.
-    pub(crate) fn selections(&self) -> Vec<Option<&Selection>> {
-        self.selections.iter().map(Option::as_ref).collect()
-    }
-
-    /// The picture of each intersection of a shot whose colour is one.
-    pub(crate) fn pictures(&self, shot: &Shot) -> Vec<Option<&IntersectionPicture>> {
-        let combination = shot.combination.as_ref().filter(|_| !self.parts.is_empty());
-        let tables = combination.into_iter().flat_map(|combination| &combination.intersections);
-        tables.map(|table| self.pictures[table.table].as_ref()).collect()
     }
 }
 
@@ -189,21 +181,21 @@ impl ObjectPart {
     /// The part's scene with the settings of the picture's, and its plan.
     fn scene_of(&self, scene: &Scene) -> (Scene, Plan) {
         let mut of_part = scene.of_part(self.object, self.role);
-        of_part.transfer = self.job.scene.transfer.clone();
+        of_part.transfer = self.tables.transfer.clone();
         // The labels are ids of its own data.
-        for (halo, own) in of_part.halos.iter_mut().zip(&self.job.scene.halos) {
+        for (halo, own) in of_part.halos.iter_mut().zip(&self.tables.halos) {
             halo.seed.labels.clone_from(&own.seed.labels);
         }
         if scene.has_own_shading(self.object, self.role) {
             // Its table has been read.
-            of_part.shading = self.job.scene.shading.clone();
-        } else if let (Some(shading), Some(read)) = (&mut of_part.shading, &self.job.scene.shading) {
+            of_part.shading = self.tables.shading.clone();
+        } else if let (Some(shading), Some(read)) = (&mut of_part.shading, &self.tables.shading) {
             // The picture itself may be lit by no table.
             shading.table = read.table.clone();
         }
         let mut plan = plan_for(&of_part, RenderTarget::Picture);
         plan.add_meetings(scene, self.object, self.role);
-        plan.settle(&of_part, is_integer(&self.job.volume));
+        plan.settle(&of_part, is_integer(&self.volume));
         (of_part, plan)
     }
 }

@@ -76,7 +76,7 @@ impl Canvas<'_> {
         }
         let plan = self.job.plan_of(&self.scene);
         let shot = match picked {
-            true => Some(self.job.resolve(&self.scene, &plan, self.job.function.as_ref(), self.view.clone())?),
+            true => Some(self.job.resolve(&self.scene, &plan, self.job.assets.function.as_ref(), self.view.clone())?),
             false => None,
         };
         let renderer = match &shot {
@@ -102,7 +102,7 @@ impl Canvas<'_> {
     /// Paints strokes at their points. `voxel` is that of `[volume]`, in which lengths are measured.
     fn painted(&self, strokes: &[PaintStroke], points: &[DVec3], voxel: f64) -> Result<Painting, Failures> {
         let volume = &self.job.volume;
-        let Some(function) = self.job.function.as_ref().filter(|_| self.scene.transfer.is_some()) else {
+        let Some(function) = self.job.assets.function.as_ref().filter(|_| self.scene.transfer.is_some()) else {
             let what = "nothing in the scene says which voxels are shown, and only these are painted";
             return Err(self.failure("", what, "add a [transfer] table").into());
         };

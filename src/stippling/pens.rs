@@ -92,10 +92,10 @@ fn colors(job: &Job, points: &Points) -> Result<Vec<Rgb>, Failure> {
     };
     let grid = volume.grid();
     let labels =
-        job.labels.as_ref().map(|labels| Labels::new(labels, grid, volume.anatomy(), scene.volume.label_lookup));
+        job.assets.labels.as_ref().map(|labels| Labels::new(labels, grid, volume.anatomy(), scene.volume.label_lookup));
     let colors = VoxelColors {
         function,
-        styles: &job.styles,
+        styles: &job.assets.styles,
         mix: scene.transfer.as_ref().map_or(Mix::Premultiplied, |transfer| transfer.mix),
         labels: labels.as_ref(),
         by_label: scene.stipples.as_ref().is_some_and(|stipples| stipples.color == DotColor::Label),

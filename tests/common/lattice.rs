@@ -25,7 +25,7 @@ pub(crate) struct Sighted {
 pub(crate) fn sighted<R: Real>(stage: &Stage) -> Vec<Vec<Sighted>> {
     let (scene, grid) = (&stage.scene, stage.volume.grid());
     let shot = stage.resolved(stage.view());
-    let [object] = &shot.objects;
+    let object = shot.background();
     let field = Field::<R>::new(&stage.volume, object.reconstruction, Rung::Gradient).unwrap();
     let (view, ends) = (&shot.view, grid.index_box().map(Vec3::from_glam));
     let [width, height] = scene.picture.size;

@@ -8,13 +8,15 @@ pub(crate) mod random;
 pub(crate) mod rod;
 pub(crate) mod strip;
 
+use drypoint::reference::ray::Renderer;
 use drypoint::reference::ray::bounds::{Bounds, BoundsError, RayOrigin};
-use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
 use drypoint::reference::suggest;
+use drypoint::scene::backdrop::Backdrop;
 use drypoint::scene::color::Rgba;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::fragments::Fragments;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::inputs::{Inputs, ObjectData};
 use drypoint::scene::mesh::TriangleMesh;
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Plan;
@@ -255,15 +257,13 @@ impl Stage {
             (None, Background::Color(c)) => Backdrop::Color(*c),
             (None, _) => Backdrop::None,
         };
-        take(Inputs {
+        let data = ObjectData {
             volume: &self.volume,
             labels: self.labels.as_ref(),
             further: self.further.each_ref().map(Option::as_ref),
             styles: &named,
-            meshes: &self.meshes,
-            background,
-            objects: ObjectInputs::default(),
-        })
+        };
+        take(Inputs { meshes: &self.meshes, ..Inputs::of(data, background) })
     }
 }
 

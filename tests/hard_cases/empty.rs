@@ -2,8 +2,10 @@
 
 use crate::common::{LAYERS, Stage, ball, orthographic, perspective, plain};
 use crate::stability::{Case, Theme};
-use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, Renderer};
+use drypoint::reference::ray::Renderer;
+use drypoint::scene::backdrop::Backdrop;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::inputs::{Inputs, ObjectData};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::plan::Plan;
 use drypoint::scene::shot::{Shot, VolumeFacts};
@@ -142,15 +144,8 @@ fn refused() -> f64 {
 fn made(scene: &Scene, volume: &Volume) -> Result<(), ()> {
     let function = Function::new(scene.transfer.as_ref().ok_or(())?, volume.range(), volume, &|_| None);
     let (function, plan) = (function.map_err(|_| ())?.ok_or(())?, Plan::new(scene));
-    let background = Backdrop::None;
     let view = View::new(&scene.camera, volume.grid(), scene.picture.size).map_err(|_| ())?;
     let facts = VolumeFacts { grid: volume.grid(), is_integer: false };
     let shot = Shot::resolve(scene, &plan, facts, Arc::new(function), view).map_err(|_| ())?;
-    let (labels, further, styles) = (None, [None, None], &[][..]);
-    Renderer::new(
-        &shot,
-        Inputs { volume, labels, further, styles, meshes: &[], background, objects: ObjectInputs::default() },
-    )
-    .map(drop)
-    .map_err(|_| ())
+    Renderer::new(&shot, Inputs::of(ObjectData::of(volume), Backdrop::None)).map(drop).map_err(|_| ())
 }

@@ -2,9 +2,11 @@
 
 use crate::common::{Stage, corrected, on, orthographic, perspective};
 use crate::stability::{Case, Theme, U, rounding, worst};
-use drypoint::reference::ray::{Backdrop, Inputs, ObjectInputs, RenderError, Renderer};
+use drypoint::reference::ray::{RenderError, Renderer};
+use drypoint::scene::backdrop::Backdrop;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::inputs::{Inputs, ObjectData};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Length, Number, StepAlong};
@@ -159,15 +161,7 @@ fn too_many_planes() -> f64 {
                     s.camera = camera.clone();
                     s.sampling.step_along = along;
                 });
-                let inputs = Inputs {
-                    volume: &shot.volume,
-                    labels: None,
-                    further: [None, None],
-                    styles: &[],
-                    meshes: &[],
-                    background: Backdrop::None,
-                    objects: ObjectInputs::default(),
-                };
+                let inputs = Inputs::of(ObjectData::of(&shot.volume), Backdrop::None);
                 let made = Renderer::new(&shot.resolved(shot.view()), inputs);
                 taken += usize::from(!matches!(made, Err(RenderError::TooManyPlanes { .. })));
             }

@@ -6,7 +6,7 @@ use crate::field::Scales;
 use crate::place::Place;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::objects::{self, DrawnPart};
-use crate::{GpuError, Inputs, PartInputs, Precision, ray, volumeshop};
+use crate::{CardInputs, GpuError, Precision, ray, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Combination, Cut, HaloSeed, Membership, Part, Role, Shot, placed};
@@ -32,18 +32,18 @@ impl PlacesOfObjects {
         self.0.iter().flat_map(|placed| placed.place.grid.world_corners())
     }
 
-    pub(crate) fn new(shot: &Shot, inputs: &Inputs<'_>) -> Result<Self, GpuError> {
-        let (Some(combination), given) = (&shot.combination, &inputs.objects) else { return Ok(Self::default()) };
+    pub(crate) fn new(shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
+        let (Some(combination), given) = (&shot.combination, inputs.data) else { return Ok(Self::default()) };
         if given.parts.len() != combination.parts.len()
             || given.selections.len() != combination.selections.len()
             || given.pictures.len() != combination.intersections.len()
         {
             return Err(GpuError::Material);
         }
-        let own = Place::own(shot, inputs.volume.grid());
-        let placed = combination.parts.iter().zip(&given.parts).enumerate().filter_map(|(i, (part, of_part))| {
+        let own = Place::own(shot, given.main.volume.grid());
+        let placed = combination.parts.iter().enumerate().filter_map(|(i, part)| {
             let has_members = volumeshop::has_members(&combination.selections[part.object]);
-            has_members.then(|| PlacedPart::new((i, part), combination, (inputs, of_part), &own))
+            has_members.then(|| PlacedPart::new((i, part), combination, inputs, &own))
         });
         Ok(Self(placed.collect::<Result<_, _>>()?))
     }
@@ -53,22 +53,23 @@ impl PlacedPart {
     fn new(
         (i, part): (usize, &Part),
         combination: &Combination,
-        (inputs, of_part): (&Inputs<'_>, &PartInputs<'_>),
+        inputs: &CardInputs<'_>,
         own: &Place,
     ) -> Result<Self, GpuError> {
-        let (world, data) = (inputs.volume.anatomy(), of_part.inputs.volume);
+        let of_part = inputs.object(i + 1)?;
+        let (world, data) = (inputs.data.main.volume.anatomy(), of_part.data.volume);
         let selection = &combination.selections[part.object];
         let motion = selection.motion.filter(|_| part.role == Role::Selection);
         let moved = |grid: &Grid| placed(grid, motion).map_err(|_| GpuError::Material);
         let of_data = Anatomy::between(data.grid(), data.anatomy(), world);
-        let memberships = match (&selection.membership, inputs.objects.selections[part.object]) {
+        let memberships = match (&selection.membership, inputs.data.selections[part.object]) {
             (Membership::Voxels, None) => return Err(GpuError::Material),
             (Membership::Voxels, Some(selection)) => moved(&selection.grid_in(world))?,
             (Membership::Everything | Membership::Value(_), _) => moved(&of_data)?,
         };
         let axes = memberships.axes();
         let in_data = own.beside(memberships, axes);
-        let bricks = of_part.inputs.measured.bricks.as_ref();
+        let bricks = of_part.measured.bricks.as_ref();
         let index_box = selection.members(&in_data.grid, bricks).unwrap_or(in_data.index_box);
         Ok(Self {
             part: i,
@@ -90,7 +91,7 @@ const OF_SELECTION: &str = "_of_selection";
 pub(super) fn add(
     shader: &mut Shader,
     shot: &Shot,
-    inputs: &Inputs<'_>,
+    inputs: &CardInputs<'_>,
     scales: &Scales,
     precision: Precision,
 ) -> Result<(), GpuError> {
@@ -98,15 +99,16 @@ pub(super) fn add(
     let places = PlacesOfObjects::new(shot, inputs)?;
     let (mut drawn, mut shaders) = (Vec::new(), Vec::new());
     for placed in &places.0 {
-        let (part, of_part) = (&combination.parts[placed.part], &inputs.objects.parts[placed.part]);
+        let (part, which) = (&combination.parts[placed.part], placed.part + 1);
+        let of_part = inputs.object(which)?;
         let selection = &combination.selections[part.object];
         let is_moved = selection.motion.is_some() && part.role == Role::Selection;
         let takes = !selection.has_own_volume && !is_moved;
-        let part_shot = shot_of(shot, part);
+        let part_shot = shot_of(shot, placed.part, part);
         let seeds = !part_shot.halos.list.is_empty();
         let (mut of_this, scales_of_part) = of_volume(
             (&part_shot, &[LayerKind::Beauty], true),
-            &of_part.inputs,
+            (inputs, which),
             &placed.place,
             precision,
             shader.interpolation,
@@ -116,13 +118,8 @@ pub(super) fn add(
         // The selection's rays, box and memberships.
         let mut of_selection = Shader { interpolation: shader.interpolation, ..Shader::default() };
         ray::add_lattice(&mut of_selection, &part_shot, &placed.selection)?;
-        volumeshop::selection::add(
-            &mut of_selection,
-            selection,
-            inputs.objects.selections[part.object],
-            &scales_of_part,
-        );
-        let is_of_volume = std::ptr::eq(of_part.inputs.volume, inputs.volume) && !is_moved;
+        volumeshop::selection::add(&mut of_selection, selection, inputs.data.selections[part.object], &scales_of_part);
+        let is_of_volume = std::ptr::eq(of_part.data.volume, inputs.data.main.volume) && !is_moved;
         volumeshop::part::add(
             &mut of_this,
             selection,
@@ -146,7 +143,7 @@ pub(super) fn add(
         });
         shaders.push((of_this, placed.suffix()));
     }
-    objects::add(shader, combination, &inputs.objects.pictures, &drawn, (shot, scales), precision);
+    objects::add(shader, combination, &inputs.data.pictures, &drawn, (shot, scales), precision);
     for (of_this, suffix) in shaders {
         shader.attach(of_this, precision, &suffix, volumeshop::part::NAMES, false);
     }
@@ -158,7 +155,7 @@ pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &Place) -> Resu
     let mut block = Block::default();
     let Some(combination) = &shot.combination else { return Ok(block) };
     for placed in &places.0 {
-        let part_shot = shot_of(shot, &combination.parts[placed.part]);
+        let part_shot = shot_of(shot, placed.part, &combination.parts[placed.part]);
         let mut of_selection = Block::default();
         // Planes are counted from the volume as this camera sees it.
         let seen = |place: &Place| Place { anchor: own.anchor, ..place.clone() };
@@ -171,16 +168,23 @@ pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &Place) -> Resu
 }
 
 /// A part as a shot of its own.
-fn shot_of(shot: &Shot, part: &Part) -> Shot {
+fn shot_of(shot: &Shot, place: usize, part: &Part) -> Shot {
     let mut of_part = Shot {
-        objects: [part.drawn.clone()],
+        objects: vec![shot.objects[place + 1].clone()],
         clipping: part.clipping.clone(),
         combination: None,
         surface: None,
         meshes: Vec::new(),
         refine_above: None,
         layers: vec![LayerKind::Beauty],
-        ..shot.clone()
+        view: shot.view.clone(),
+        lattice: shot.lattice,
+        rays_across: shot.rays_across,
+        number: shot.number,
+        halos: shot.halos.clone(),
+        blend_space: shot.blend_space,
+        background: shot.background.clone(),
+        stop_at: shot.stop_at,
     };
     // Its seeds are its own; a part of which no halo takes any has no halo.
     match part.seeds.as_ref().filter(|own| own.list.iter().any(HaloSeed::can_seed)) {

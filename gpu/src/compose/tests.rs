@@ -2,11 +2,12 @@
 
 use super::shader;
 use crate::renderer::drawn_layers;
-use crate::{GpuError, Hiding, Inputs, Interpolation, ObjectInputs, PartInputs, Precision, volume_stippling};
+use crate::{CardInputs, GpuError, Hiding, Interpolation, Precision, volume_stippling};
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 use drypoint_scene::file::{Overrides, parse};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::measured::{Measured, PaddedNumbers};
 use drypoint_scene::mesh::{BoxNode, TriangleMesh};
@@ -291,34 +292,39 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
     let of_labels = Grid::with_spacing([4, 3, 2], [2.0; 3]).unwrap();
     let of_labels = if labels_are_elsewhere { &of_labels } else { volume.grid() };
     let labels = LabelVolume::new(&ids(of_labels)).map_err(|e| e.to_string())?;
-    let (shot, parts) = with_objects(shot, &scene, volume)?;
+    let (shot, places) = with_objects(shot, &scene, volume)?;
     let styles_of = |object: &Object, clipping: &Clipping| -> Vec<Style> {
         let style = |name: &String| Style::from_straight(name, 2, &[[0.5; 4]; 4], true).unwrap();
         let of_function: &[String] = if let Function::Style { names, .. } = &*object.function { names } else { &[] };
         of_function.iter().chain(&clipping.styles).map(style).collect()
     };
     let background = if has_picture { Backdrop::Pixels(&[[0.5; 4]; 16 * 12]) } else { Backdrop::Color([0.5; 4]) };
-    let of_parts = shot.combination.iter().flat_map(|combination| &combination.parts);
-    let drawn: Vec<_> = std::iter::once((&shot.objects[0], &shot.clipping))
-        .chain(of_parts.map(|part| (&part.drawn, &part.clipping)))
-        .map(|(object, clipping)| {
-            let measured = measured(volume, object.gradient_range.is_some(), object.skip_empty);
-            Drawn { object, measured, styles: styles_of(object, clipping) }
-        })
-        .collect();
+    let of_parts = shot.parts().map(|(part, object)| (object, &part.clipping));
+    let drawn: Vec<_> = std::iter::once((shot.background(), &shot.clipping)).chain(of_parts).collect();
+    let measured =
+        |(object, _): &(&Object, &Clipping)| measured(volume, object.gradient_range.is_some(), object.skip_empty);
+    let measured: Vec<Measured> = drawn.iter().map(measured).collect();
+    let styles: Vec<Vec<Style>> = drawn.iter().map(|(object, clipping)| styles_of(object, clipping)).collect();
+    let data = drawn.iter().zip(&styles).map(|((object, _), styles)| {
+        let further = [0, 1].map(|axis| {
+            let over = object.function.nodes().2.map(|rows| &rows.over[axis]);
+            matches!(over, Some(Axis::Volume(_))).then_some(volume)
+        });
+        ObjectData { volume, labels: Some(&labels), further, styles }
+    });
+    let [main, parts @ ..] = &*data.collect::<Vec<_>>() else { return Err("there is no object".into()) };
     let selection = Selection::from_labels(&labels, &[1]).map_err(|e| e.to_string())?;
     let picture = IntersectionPicture { size: [2, 1], pixels: vec![[0.5; 4]; 2], has_opacity: true };
-    let parts = drawn[1..].iter().zip(parts);
-    let objects = ObjectInputs {
-        parts: parts
-            .map(|(drawn, place)| PartInputs { inputs: drawn.inputs(volume, &labels, background), place })
-            .collect(),
+    let triangle = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], None, vec![[0, 1, 2]]).unwrap();
+    let data = Inputs {
+        main: *main,
+        parts: parts.to_vec(),
         selections: scene.objects.iter().map(|object| object.selection.as_ref().map(|_| &selection)).collect(),
         pictures: shot.combination.iter().flat_map(|c| &c.intersections).map(|_| Some(&picture)).collect(),
+        meshes: &vec![triangle; shot.meshes.len()],
+        background,
     };
-    let triangle = TriangleMesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], None, vec![[0, 1, 2]]).unwrap();
-    let meshes = vec![triangle; shot.meshes.len()];
-    let inputs = Inputs { has_lines, objects, meshes: &meshes, ..drawn[0].inputs(volume, &labels, background) };
+    let inputs = CardInputs { data: &data, measured: &measured, places: &places, has_lines };
     match shader(&shot, &drawn_layers(&shot), &inputs, precision, interpolation) {
         Ok((shader, _)) => Ok(Some(shader.text(precision))),
         Err(GpuError::Missing { .. }) => Ok(None),
@@ -326,29 +332,11 @@ fn composed(scene: &Scene, volume: &Volume, beside: Beside, precision: Precision
     }
 }
 
-/// An object of a shot with what it reads.
-struct Drawn<'a> {
-    object: &'a Object,
-    measured: Measured,
-    styles: Vec<Style>,
-}
-
-impl Drawn<'_> {
-    fn inputs<'d>(&'d self, volume: &'d Volume, labels: &'d LabelVolume, background: Backdrop<'d>) -> Inputs<'d> {
-        let further = [0, 1].map(|axis| {
-            let over = self.object.function.nodes().2.map(|rows| &rows.over[axis]);
-            matches!(over, Some(Axis::Volume(_))).then_some(volume)
-        });
-        let (measured, styles, objects) = (&self.measured, &*self.styles, ObjectInputs::default());
-        let labels = Some(labels);
-        Inputs { volume, measured, labels, further, styles, background, meshes: &[], has_lines: false, objects }
-    }
-}
-
-/// A shot with the objects of a scene, all of the same volume, and for each part the place of its volume among those uploaded.
+/// A shot with the objects of a scene, all of the same volume, and for each object the place of its volume among those
+/// uploaded.
 fn with_objects(shot: Shot, scene: &Scene, volume: &Volume) -> Result<(Shot, Vec<usize>), String> {
     if scene.objects.is_empty() {
-        return Ok((shot, Vec::new()));
+        return Ok((shot, vec![0]));
     }
     let grid = volume.grid();
     let main = VolumeFacts { grid, is_integer: false };
@@ -367,7 +355,8 @@ fn with_objects(shot: Shot, scene: &Scene, volume: &Volume) -> Result<(Shot, Vec
         Ok(PartFacts { scene, plan, function, grid, is_integer: false, range: [0.0, 10.0] })
     });
     let facts: Vec<PartFacts<'_>> = facts.collect::<Result<_, String>>()?;
-    let places = scene.parts().map(|(object, _)| usize::from(scene.objects[object].volume.is_some())).collect();
+    let parts = scene.parts().map(|(object, _)| usize::from(scene.objects[object].volume.is_some()));
+    let places = std::iter::once(0).chain(parts).collect();
     let shot = shot.with_objects(scene, main, [0.0, 10.0], &selections, &facts).map_err(|e| e.to_string())?;
     Ok((shot, places))
 }

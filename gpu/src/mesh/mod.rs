@@ -1,8 +1,9 @@
 //! Meshes of triangles, at which rays end ([VS-12]).
 
+use crate::inputs::ObjectInputs;
 use crate::module::module;
 use crate::shader::{Constant, Data, Shader};
-use crate::{GpuError, Inputs, Precision, shading};
+use crate::{GpuError, Precision, shading};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::shot::{Lighting, Shot};
@@ -15,11 +16,11 @@ const FARTHEST: f64 = 1e9;
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
-    inputs: &Inputs<'_>,
+    (meshes, inputs): (&[TriangleMesh], &ObjectInputs<'_>),
     value: f64,
     precision: Precision,
 ) -> Result<(), GpuError> {
-    let (meshes, boxes) = (inputs.meshes, &inputs.measured.mesh_boxes);
+    let boxes = &inputs.measured.mesh_boxes;
     let first = shot.meshes.first().ok_or(GpuError::Material)?;
     let triangles: usize = meshes.iter().map(|mesh| mesh.triangles().len()).sum();
     // Each leaf has one triangle. All meshes of a scene have one light.
@@ -28,7 +29,7 @@ pub(crate) fn add(
     if shot.meshes.iter().any(|mesh| mesh.lit != first.lit) {
         return Err(GpuError::Material);
     }
-    let vertices = vertices(meshes, inputs.volume.grid());
+    let vertices = vertices(meshes, inputs.data.volume.grid());
     if vertices.iter().any(|vertex| vertex.abs().max_element() > FARTHEST) {
         return Err(GpuError::Missing { what: "meshes so far from the volume", key: "mesh" });
     }

@@ -92,7 +92,7 @@ pub(crate) const CAST_ALONE: &[Module] = &[module!("cast_alone")];
 
 /// Adds the loop over samples and what it calls: `cast` is a ray's order of samples.
 pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_lines: bool) {
-    let [object] = &shot.objects;
+    let object = shot.background();
     shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
     shader.add(cast);
     if has_lines {
@@ -184,7 +184,7 @@ pub(crate) fn rounding(scales: &Scales, precision: Precision) -> f64 {
 
 /// Adds the skipping of bricks that can show nothing.
 pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scales: &Scales, precision: Precision) {
-    let [object] = &shot.objects;
+    let object = shot.background();
     let slack = rounding(scales, precision);
     let can_show = |&[lo, hi]: &[f64; 2]| object.function.can_be_visible([lo - slack, hi + slack], None, |at| at);
     let visible: Vec<bool> = bricks.ranges.iter().map(can_show).collect();

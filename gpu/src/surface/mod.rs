@@ -51,7 +51,7 @@ pub(crate) fn add_inside(shader: &mut Shader, outside: Outside, has_mask: bool) 
 
 /// Adds an iso-surface at which rays end, of which the search is there, and the end of rays.
 pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has_mask: bool) {
-    let [object] = &shot.objects;
+    let object = shot.background();
     shader.add(&[module!("../ray/surface")]);
     if shot.clipping.planes.is_empty() {
         shader.add(&[module!("whole")]);

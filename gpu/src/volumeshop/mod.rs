@@ -32,9 +32,7 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
 
 /// The cells of the lighting tables of a shot, its volume's first, which for light from the world depend on the camera.
 pub(crate) fn lighting_cells(shot: &Shot) -> Vec<Vec<f64>> {
-    let parts = shot.combination.iter().flat_map(|combination| &combination.parts);
-    let materials = shot.objects.iter().chain(parts.map(|part| &part.drawn)).map(|object| &object.material);
-    let tables = materials.filter_map(|material| match material {
+    let tables = shot.objects.iter().filter_map(|object| match &object.material {
         Material::Regular(lit) => match &lit.lighting {
             Lighting::Function(params) => Some(cells(&params.table)),
             Lighting::Flat | Lighting::Phong(_) | Lighting::Toon(_) => None,

@@ -5,12 +5,13 @@
 pub(crate) mod planes;
 
 use crate::field::Scales;
+use crate::inputs::ObjectInputs;
 use crate::module::module;
 use crate::number::{ELEMENTARY, NUMBER};
 use crate::place::Place;
 use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
 use crate::shader::{Constant, Data, HaloStages, Kept, Shader};
-use crate::{GpuError, Inputs, Precision, transfer, volumeshop};
+use crate::{GpuError, Precision, transfer, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
@@ -45,11 +46,11 @@ pub(crate) fn add(
     shader: &mut Shader,
     (shot, is_part): (&Shot, bool),
     own: SampleQuery,
-    (inputs, place): (&Inputs<'_>, &Place),
+    (inputs, place): (&ObjectInputs<'_>, &Place),
     scales: &Scales,
     precision: Precision,
 ) -> Result<(), GpuError> {
-    let (halos, [object]) = (&shot.halos, &shot.objects);
+    let (halos, object) = (&shot.halos, shot.background());
     let list = &halos.list;
     let mut lists = Lists::default();
     let mut numbers = Vec::new();
@@ -91,7 +92,7 @@ pub(crate) fn add(
         (true, true) => module!("seed_opacity_over_two"),
     }]);
     let mut next = Vec::new();
-    if inputs.volume.mask().is_some() {
+    if inputs.data.volume.mask().is_some() {
         next.push("skip_masked");
     }
     if let Some(bricks) = &inputs.measured.bricks {

@@ -2,12 +2,12 @@
 
 use super::brick_occupancy::{Beam, RayIntervals};
 use super::composite::{Cast, Sums};
-use super::inputs::Backdrop;
 use super::lattice::IndexRay;
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
 use super::tile_work::{CastAll, TileRays, TileWork};
 use crate::number::Real;
+use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::parallel;

@@ -2,7 +2,7 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
-use super::inputs::{Inputs, RenderError};
+use super::error::RenderError;
 use super::lattice::{MOST_ACROSS, MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
 use super::prepared_combination::PreparedCombination;
@@ -16,7 +16,7 @@ use crate::labels::Labels;
 use crate::number::{Mat3, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise, gate};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::measured::Measured;
+use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Axis, BlendSpace, Clipping, GradientRange, MOST_PLANES, Object, Shot};
 use drypoint_scene::space::Grid;
@@ -29,12 +29,11 @@ pub(super) fn prepare<'a, R: Real>(
     inputs: &Inputs<'a>,
     counts: &mut Counts,
 ) -> Result<Prepared<'a, R>, RenderError> {
-    let [object] = &shot.objects;
-    let volume = inputs.volume;
+    let object = shot.background();
+    let data = &inputs.main;
+    let volume = data.volume;
     within_planes(shot, volume.grid())?;
-    let combination = shot.combination.as_ref();
-    let rung = combination.map_or(object.rung, |c| c.parts.iter().fold(object.rung, |r, part| r.max(part.drawn.rung)));
-    let mut fields = Fields::new(rung);
+    let mut fields = Fields::new(shot);
     // The field, and which of its bricks can show something.
     let field = fields.of(volume, object)?;
     counts.bytes.extend(field.bytes());
@@ -43,13 +42,13 @@ pub(super) fn prepare<'a, R: Real>(
         counts.bytes.insert("bricks".into(), bricks.bytes() as u64);
     }
     let surface = shot.surface.as_ref().map(|s| PreparedSurface::new(s, &field, bricks.as_ref(), counts));
-    let skip = bricks.as_ref().map(|bricks| skip::<R>(bricks, object, inputs));
+    let skip = bricks.as_ref().map(|bricks| skip::<R>(bricks, object, data));
     let cells =
         bricks.as_ref().and_then(|bricks| CellMask::new(bricks, object.reconstruction.kernel, &object.function));
     if let Some(cells) = &cells {
         counts.bytes.insert("cells".into(), cells.bytes() as u64);
     }
-    if let Some(labels) = inputs.labels {
+    if let Some(labels) = data.labels {
         counts.bytes.insert("labels".into(), labels.bytes() as u64);
     }
     if let Some(skip) = &skip {
@@ -60,7 +59,7 @@ pub(super) fn prepare<'a, R: Real>(
     let encode = shot.blend_space == BlendSpace::Srgb;
     let camera = Camera { view: &shot.view, rays_across: shot.rays_across, voxel: volume.grid().voxel() };
     let place = Place { grid: volume.grid().clone(), moved: None };
-    let mut prepared = prepare_object((object, &shot.clipping), inputs, place, field, &camera, &mut fields, counts)?;
+    let mut prepared = prepare_object((object, &shot.clipping), data, place, field, &camera, &mut fields, counts)?;
     let plain = matches!(prepared.shader, Shader::Regular { .. });
     let more = !plain
         || prepared.table.is_some()
@@ -71,13 +70,13 @@ pub(super) fn prepare<'a, R: Real>(
     prepared.needs = Needs::new(object.query, more);
     let of_alpha = prepared.over_two.as_ref().map(|over_two| over_two.first);
     let rounded = |at| R::from_f64(at).to_f64();
-    let halos = PreparedHalos::new(shot, inputs, bricks.as_ref(), of_alpha, rounded)?;
+    let halos = PreparedHalos::new(shot, data, bricks.as_ref(), of_alpha, rounded)?;
     if let Some(skip) = halos.as_ref().and_then(|halos| halos.skip.as_ref()) {
         counts.bytes.insert("skip_seeds".into(), skip.bytes() as u64);
     }
-    let combination = combination
-        .map(|c| PreparedCombination::new(c, &shot.halos, inputs, &camera, &mut fields, counts))
-        .transpose()?;
+    let combination = shot.combination.as_ref();
+    let combination =
+        combination.map(|c| PreparedCombination::new((shot, c), inputs, &camera, &mut fields, counts)).transpose()?;
     let mut prepared = Prepared {
         object: prepared,
         combination,
@@ -119,8 +118,9 @@ pub(super) struct Fields<'a, R> {
 }
 
 impl<'a, R: Real> Fields<'a, R> {
-    /// No fields yet; each is prepared for a rung.
-    fn new(rung: Rung) -> Self {
+    /// No fields yet; each is prepared for the highest rung of a shot's objects.
+    pub(super) fn new(shot: &Shot) -> Self {
+        let rung = shot.objects.iter().map(|object| object.rung).max().unwrap_or(Rung::Value);
         Self { rung, fields: Vec::new(), ranges: Vec::new() }
     }
 
@@ -136,8 +136,13 @@ impl<'a, R: Real> Fields<'a, R> {
         Ok(field)
     }
 
+    /// The highest rung of the shot's objects.
+    pub(super) fn rung(&self) -> Rung {
+        self.rung
+    }
+
     /// The range of |g| of an object's volume.
-    fn range(&mut self, field: &Field<'a, R>, object: &Object, counts: &mut Counts) -> Option<(R, R)> {
+    pub(super) fn range(&mut self, field: &Field<'a, R>, object: &Object, counts: &mut Counts) -> Option<(R, R)> {
         let range = object.gradient_range?;
         let volume = field.volume();
         let known = self.ranges.iter().find(|(known, of, _)| std::ptr::eq(*known, volume) && *of == range);
@@ -169,7 +174,7 @@ pub(super) struct Place<R> {
 /// Prepares a volume with its function and its material. Its samples may need anything.
 pub(super) fn prepare_object<'a, R: Real>(
     (object, clipping): (&Object, &Clipping),
-    inputs: &Inputs<'a>,
+    data: &ObjectData<'a>,
     place: Place<R>,
     field: Field<'a, R>,
     camera: &Camera<'_>,
@@ -182,7 +187,7 @@ pub(super) fn prepare_object<'a, R: Real>(
     let (over_value, over_two) = match rows {
         None => (Piecewise::new(at, opacity)?, None),
         Some(rows) => {
-            let over_two = OverTwo::new((at, opacity), rows, inputs, object, &field, counts)?;
+            let over_two = OverTwo::new((at, opacity), rows, data, object, &field, counts)?;
             (gate::over_value(at, opacity, rows)?, Some(over_two))
         }
     };
@@ -191,15 +196,15 @@ pub(super) fn prepare_object<'a, R: Real>(
         counts.bytes.insert("table".into(), table.bytes() as u64);
     }
     // The styles of caps follow those of the function.
-    let of_function = inputs.styles.len().saturating_sub(clipping.styles.len());
-    let (styles, of_caps) = inputs.styles.split_at(of_function);
+    let of_function = data.styles.len().saturating_sub(clipping.styles.len());
+    let (styles, of_caps) = data.styles.split_at(of_function);
     let shader = Shader::new(object, camera.view, camera.rays_across, styles, camera.voxel)?;
     if let Some(bytes) = shader.mipmap_bytes() {
         counts.bytes.insert("style_mipmaps".into(), bytes as u64);
     }
     Ok(PreparedObject {
-        volume: inputs.volume,
-        ends: inputs.volume.grid().index_box().map(Vec3::from_glam),
+        volume: data.volume,
+        ends: data.volume.grid().index_box().map(Vec3::from_glam),
         grid: place.grid,
         moved: place.moved,
         clip: PreparedClip::new(clipping, of_caps)?,
@@ -221,50 +226,14 @@ pub(super) fn prepare_object<'a, R: Real>(
     })
 }
 
-/// The facts that were measured for a shot: of its volume, then of the volumes of its parts.
-pub(super) fn measured<R: Real>(prepared: &Prepared<'_, R>, shot: &Shot) -> Vec<Measured> {
-    let of_parts = shot.combination.iter().flat_map(|combination| &combination.parts);
-    let prepared_parts = prepared.combination.iter().flat_map(|combination| &combination.parts);
-    let of_parts = prepared_parts.map(|part| &part.object).zip(of_parts.map(|part| &part.drawn));
-    let objects: Vec<_> = std::iter::once((&prepared.object, &shot.objects[0])).chain(of_parts).collect();
-    let rung = objects.iter().fold(Rung::Value, |rung, (_, object)| rung.max(object.rung));
-    let mut fields: Vec<(&PreparedObject<'_, R>, &Object, Measured)> = Vec::new();
-    let mut all = Vec::new();
-    for (prepared, object) in objects {
-        let field = &prepared.field;
-        let is_same = |(other, of, _): &&(&PreparedObject<'_, R>, &Object, Measured)| {
-            std::ptr::eq(other.volume, prepared.volume) && of.reconstruction == object.reconstruction
-        };
-        let of_field = match fields.iter().find(is_same) {
-            Some((.., known)) => known.clone(),
-            None => {
-                let of_field = field.measured(rung);
-                fields.push((prepared, object, of_field.clone()));
-                of_field
-            }
-        };
-        let back = |g: R| drypoint_scene::math::scale_by_power_of_two(g.to_f64(), field.scale_exponent());
-        all.push(Measured {
-            gradient_range: prepared.gradient_range.map(|(lo, width)| [back(lo), back(width)]),
-            label_distances: prepared.over_two.as_ref().map_or([None, None], OverTwo::at_voxels),
-            bricks: object.skip_empty.then(|| field.bricks()),
-            ..of_field
-        });
-    }
-    for (own, meshes) in all.iter_mut().zip(&prepared.meshes) {
-        own.mesh_boxes = meshes.boxes();
-    }
-    all
-}
-
 /// Takes over what depends on the camera from the same shot of another one, with the same lens and picture.
 pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Result<(), RenderError> {
     within_planes(shot, prepared.object.volume.grid())?;
     prepared.eye_axes = EyeAxes::new(&shot.view);
-    let [object] = &shot.objects;
+    let object = shot.background();
     prepared.object.shader.turn(object, &shot.view);
-    if let (Some(prepared), Some(combination)) = (&mut prepared.combination, &shot.combination) {
-        prepared.turn(combination, &shot.view);
+    if let Some(prepared) = &mut prepared.combination {
+        prepared.turn(shot);
     }
     if let (Some(prepared), Some(surface)) = (&mut prepared.surface, &shot.surface) {
         prepared.lit = Lit::new(&surface.lit);
@@ -277,8 +246,8 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Resu
     Ok(())
 }
 
-/// Whether sample planes are told apart all the way ([RAY-1]), and the picture's samples have an end.
-fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
+/// Checks that sample planes are told apart all the way ([RAY-1]), and that the picture's samples have an end.
+pub(super) fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
     let Shot { lattice, view, .. } = shot;
     let planes = lattice.planes(view, grid);
     if planes >= MOST_PLANES {
@@ -293,10 +262,10 @@ fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
 }
 
 /// Marks the bricks in which the function can show something.
-fn skip<R: Real>(bricks: &Bricks, object: &Object, inputs: &Inputs<'_>) -> BrickOccupancy {
-    let labels = labels_of(object, inputs);
+fn skip<R: Real>(bricks: &Bricks, object: &Object, data: &ObjectData<'_>) -> BrickOccupancy {
+    let labels = labels_of(object, data);
     // The cells of the volume; an axis of length 1 has one.
-    let cells = inputs.volume.dims().map(|n| n.max(2) - 1);
+    let cells = data.volume.dims().map(|n| n.max(2) - 1);
     let occurring = |brick: [usize; 3]| {
         let end = std::array::from_fn(|a| ((brick[a] + 1) * BRICK).min(cells[a]));
         labels.as_ref().map(|labels| labels.ids_in(brick.map(|i| i * BRICK), end))
@@ -322,9 +291,9 @@ pub(super) fn gradient_range<R: Real>(field: &Field<'_, R>, range: GradientRange
 }
 
 /// The labels at the data's positions, where the function over the value has a row for each.
-fn labels_of<'a>(object: &Object, inputs: &Inputs<'a>) -> Option<Labels<'a>> {
+fn labels_of<'a>(object: &Object, data: &ObjectData<'a>) -> Option<Labels<'a>> {
     let over = &object.function.nodes().2?.over;
-    let data = inputs.volume;
-    let new = |labels| Labels::new(labels, data.grid(), data.anatomy(), object.label_lookup);
-    inputs.labels.filter(|_| *over == [Axis::Value, Axis::Label]).map(new)
+    let volume = data.volume;
+    let new = |labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup);
+    data.labels.filter(|_| *over == [Axis::Value, Axis::Label]).map(new)
 }

@@ -1,7 +1,7 @@
 //! The objects of a picture prepared for its samples ([VS-2] … [VS-4], [VS-7]).
 
 use super::composite::depth_of_part;
-use super::inputs::{Inputs, RenderError};
+use super::error::RenderError;
 use super::lattice::{IndexRay, samples_in_box};
 use super::prepare::{Camera, Fields, Place, prepare_object};
 use super::prepared::Prepared;
@@ -14,11 +14,12 @@ use crate::volumeshop::far_side::through_box;
 use crate::volumeshop::{FunnelMap, Memberships, guard};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
+use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::parallel;
 use drypoint_scene::shot::{
-    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, Lattice, Membership, Part, Role,
-    SelectionParams, placed,
+    Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, LabelLookup, Lattice, Membership, Object,
+    Part, Role, SampleQuery, SelectionParams, Shot, placed,
 };
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
@@ -114,37 +115,31 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     /// # Errors
     /// Data that were not handed over, and what a part of a picture of its own could be refused for.
     pub(super) fn new(
-        combination: &Combination,
-        halos: &Halos,
+        (shot, combination): (&Shot, &Combination),
         inputs: &Inputs<'v>,
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
         counts: &mut Counts,
     ) -> Result<Self, RenderError> {
-        let given = &inputs.objects;
-        if given.parts.len() != combination.parts.len()
-            || given.selections.len() != combination.selections.len()
-            || given.pictures.len() != combination.intersections.len()
+        let main = inputs.main.volume;
+        if inputs.parts.len() != combination.parts.len()
+            || inputs.selections.len() != combination.selections.len()
+            || inputs.pictures.len() != combination.intersections.len()
         {
             return Err(RenderError::NoObjects);
         }
-        let world = inputs.volume.anatomy();
-        let parts: Result<Vec<_>, RenderError> = combination
-            .parts
-            .iter()
-            .zip(&given.parts)
-            .map(|(part, of_part)| {
-                let selection = &combination.selections[part.object];
-                let motion = selection.motion.filter(|_| part.role == Role::Selection);
-                PreparedPart::new((part, motion), halos, (inputs.volume, of_part), camera, fields, counts)
-            })
-            .collect();
+        let world = main.anatomy();
+        let parts = shot.parts().zip(&inputs.parts).map(|((part, object), data)| {
+            let motion = combination.selections[part.object].motion.filter(|_| part.role == Role::Selection);
+            PreparedPart::new((part, object, motion), &shot.halos, (main, data), camera, fields, counts)
+        });
+        let parts: Result<Vec<_>, RenderError> = parts.collect();
         let parts = parts?;
-        let selections = combination.selections.iter().zip(&given.selections).enumerate();
+        let selections = combination.selections.iter().zip(&inputs.selections).enumerate();
         let selections: Result<Vec<_>, RenderError> = selections
             .map(|(i, (params, memberships))| {
                 let data = combination.parts.iter().position(|part| part.object == i);
-                let data = data.map_or(inputs.volume, |part| given.parts[part].volume);
+                let data = data.map_or(main, |part| inputs.parts[part].volume);
                 let (grid, membership) = match (&params.membership, memberships) {
                     (Membership::Voxels, None) => return Err(RenderError::NoObjects),
                     (Membership::Voxels, Some(selection)) => {
@@ -166,7 +161,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
                 PreparedSelection::new(params, grid, members, membership)
             })
             .collect();
-        let pictures = combination.intersections.iter().zip(&given.pictures);
+        let pictures = combination.intersections.iter().zip(&inputs.pictures);
         let selections = selections?;
         Ok(Self {
             fuzzy: combination.fuzzy,
@@ -243,11 +238,11 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     }
 
     /// Takes over what depends on the camera.
-    pub(super) fn turn(&mut self, combination: &Combination, view: &View) {
-        for (prepared, part) in self.parts.iter_mut().zip(&combination.parts) {
-            prepared.object.shader.turn(&part.drawn, view);
+    pub(super) fn turn(&mut self, shot: &Shot) {
+        for (prepared, (_, object)) in self.parts.iter_mut().zip(shot.parts()) {
+            prepared.object.shader.turn(object, &shot.view);
         }
-        self.reach = reach(&self.selections, view);
+        self.reach = reach(&self.selections, &shot.view);
     }
 }
 
@@ -309,26 +304,27 @@ impl<'v, R: Real> PreparedSelection<'v, R> {
 
 impl<'v, R: Real> PreparedPart<'v, R> {
     fn new(
-        (part, motion): (&Part, Option<DAffine3>),
+        (part, object, motion): (&Part, &Object, Option<DAffine3>),
         halos: &Halos,
-        (main, inputs): (&Volume, &Inputs<'v>),
+        (main, data): (&Volume, &ObjectData<'v>),
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
         counts: &mut Counts,
     ) -> Result<Self, RenderError> {
-        let volume = inputs.volume;
+        let volume = data.volume;
         let is_of_background = std::ptr::eq(volume, main) && motion.is_none();
         let grid = placed(&grid_in(volume, main.anatomy()), motion).map_err(|_| RenderError::Motion)?;
         // L_T maps vectors of the picture's world to those of the data's.
         let to_data = volume.grid().axes() * grid.inverse_axes();
         let moved = (grid.axes() != volume.grid().axes()).then(|| Mat3::from_glam(to_data.transpose()));
-        let field = fields.of(volume, &part.drawn)?;
-        let bricks = part.drawn.skip_empty.then(|| PartBricks::new(&field, part));
+        let field = fields.of(volume, object)?;
+        let bricks = object.skip_empty.then(|| PartBricks::new(&field, (part, object)));
         let place = Place { grid, moved };
-        let object = prepare_object((&part.drawn, &part.clipping), inputs, place, field, camera, fields, counts)?;
+        let prepared = prepare_object((object, &part.clipping), data, place, field, camera, fields, counts)?;
         let is_moved = motion.is_some();
-        let seeds = seeds_of(part, halos, inputs, &object)?;
-        Ok(Self { object, selection: part.object, is_moved, is_of_background, seeds, bricks })
+        let of_alpha = prepared.over_two.as_ref().map(|over_two| over_two.first);
+        let seeds = seeds_of(part, halos, data, (object.label_lookup, of_alpha))?;
+        Ok(Self { object: prepared, selection: part.object, is_moved, is_of_background, seeds, bricks })
     }
 
     /// Whether a sample in a cell of its volume can show something.
@@ -346,8 +342,8 @@ impl<'v, R: Real> PreparedPart<'v, R> {
 
 impl PartBricks {
     /// Looks at the bricks of a part's field.
-    fn new<R: Real>(field: &Field<'_, R>, part: &Part) -> Self {
-        let (bricks, function) = (field.bricks(), &part.drawn.function);
+    fn new<R: Real>(field: &Field<'_, R>, (part, object): (&Part, &Object)) -> Self {
+        let (bricks, function) = (field.bricks(), &object.function);
         let rounded = |at| R::from_f64(at).to_f64();
         let can_show = |&range| function.can_be_visible(range, None, rounded);
         let seeds = part.seeds.as_ref().map_or(&[][..], |seeds| &seeds.list);
@@ -359,17 +355,16 @@ impl PartBricks {
 }
 
 /// The seeds of halos among the samples of a part; none where no halo takes it.
-fn seeds_of<'v, R: Real>(
+fn seeds_of<'v>(
     part: &Part,
     halos: &Halos,
-    inputs: &Inputs<'v>,
-    object: &PreparedObject<'v, R>,
+    data: &ObjectData<'v>,
+    (label_lookup, of_alpha): (LabelLookup, Option<SampleQuery>),
 ) -> Result<Option<PreparedSeeds<'v>>, RenderError> {
     let Some(own) = part.seeds.as_ref().filter(|own| own.list.iter().any(HaloSeed::can_seed)) else { return Ok(None) };
     let with = |(halo, seed): (&HaloParams, &HaloSeed)| HaloParams { seed: seed.clone(), ..halo.clone() };
     let list: Vec<HaloParams> = halos.list.iter().zip(&own.list).map(with).collect();
-    let of_alpha = object.over_two.as_ref().map(|over_two| over_two.first);
-    PreparedSeeds::new((&list, own.query), inputs, part.drawn.label_lookup, of_alpha).map(Some)
+    PreparedSeeds::new((&list, own.query), data, label_lookup, of_alpha).map(Some)
 }
 
 /// The grid of a volume in a world of the anatomical directions `world` ([SPACE-2]).

@@ -1,10 +1,11 @@
 //! The halos of a picture prepared for its samples ([HALO-1], [RAY-2]).
 
 use super::brick_occupancy::BrickOccupancy;
-use super::inputs::{Inputs, RenderError};
+use super::error::RenderError;
 use super::prepared_seeds::{PreparedSeeds, can_seed_at};
 use crate::volumetric_halos::{PreparedHalo, guard};
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::inputs::ObjectData;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{BlendSpace, SampleQuery, Shot};
 use drypoint_scene::volume::{BRICK, Bricks};
@@ -25,12 +26,12 @@ impl<'v> PreparedHalos<'v> {
     /// Nodes of h_v that make no function, labels that were not handed over.
     pub(super) fn new(
         shot: &Shot,
-        inputs: &Inputs<'v>,
+        data: &ObjectData<'v>,
         bricks: Option<&Bricks>,
         over_two: Option<SampleQuery>,
         rounded: impl Fn(f64) -> f64 + Copy,
     ) -> Result<Option<Self>, RenderError> {
-        let (halos, [object]) = (&shot.halos, &shot.objects);
+        let (halos, object) = (&shot.halos, shot.background());
         if halos.list.is_empty() {
             return Ok(None);
         }
@@ -41,10 +42,10 @@ impl<'v> PreparedHalos<'v> {
         if shot.combination.is_some() && !halos.list.iter().any(|halo| halo.seed.can_seed()) {
             return Ok(Some(Self { list, seeds: None, skip: None }));
         }
-        let seeds = PreparedSeeds::new((&halos.list, halos.query), inputs, object.label_lookup, over_two)?;
+        let seeds = PreparedSeeds::new((&halos.list, halos.query), data, object.label_lookup, over_two)?;
         // A brick is skipped if none of its samples can seed.
-        let grid = inputs.volume.grid();
-        let cells = inputs.volume.dims().map(|n| n.max(2) - 1);
+        let grid = data.volume.grid();
+        let cells = data.volume.dims().map(|n| n.max(2) - 1);
         let can_seed = |brick: [usize; 3], range: [f64; 2]| {
             let first = brick.map(|i| i * BRICK);
             let end: [usize; 3] = std::array::from_fn(|a| (first[a] + BRICK).min(cells[a]));

@@ -5,10 +5,9 @@ use super::sample::Lit;
 use crate::mesh::{MeshHit, MeshSearch};
 use crate::number::{Real, Vec3};
 use drypoint_scene::counts::Counts;
-use drypoint_scene::mesh::{BoxNode, TriangleMesh};
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::shot::{MOST_PLANES, MeshParams};
 use drypoint_scene::space::Grid;
-use std::sync::Arc;
 
 /// Meshes ready for rays.
 pub(super) struct PreparedMeshes<'a, R> {
@@ -42,11 +41,6 @@ impl<'a, R: Real> PreparedMeshes<'a, R> {
         for (look, mesh) in self.looks.iter_mut().zip(params) {
             look.lit = Lit::new(&mesh.lit);
         }
-    }
-
-    /// The boxes about the triangles.
-    pub(super) fn boxes(&self) -> Arc<[BoxNode]> {
-        self.search.boxes()
     }
 
     /// The nearest place on a ray from a depth on.

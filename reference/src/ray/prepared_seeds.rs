@@ -1,9 +1,10 @@
 //! The seeds of halos among the samples of one volume at one place ([HALO-2], [VS-2]): of the background, a selection or a
 //! ghost.
 
-use super::inputs::{Inputs, RenderError};
+use super::error::RenderError;
 use crate::labels::Labels;
 use crate::volumetric_halos::seed::Seeding;
+use drypoint_scene::inputs::ObjectData;
 use drypoint_scene::shot::{HaloParams, HaloSeed, LabelLookup, SampleQuery, SeedValue};
 use drypoint_scene::transfer::{Function, can_be_above_zero};
 
@@ -31,15 +32,15 @@ impl<'v> PreparedSeeds<'v> {
     /// Nodes of h_v that make no function, labels that were not handed over.
     pub(super) fn new(
         (halos, query): (&[HaloParams], SampleQuery),
-        inputs: &Inputs<'v>,
+        data: &ObjectData<'v>,
         label_lookup: LabelLookup,
         over_two: Option<SampleQuery>,
     ) -> Result<Self, RenderError> {
         let list: Vec<Seeding> = halos.iter().map(Seeding::new).collect::<Result<_, _>>()?;
         let any = |is: fn(&Seeding) -> bool| list.iter().any(is);
         let labels = if any(|seeding| seeding.labels.is_some()) {
-            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
-            Some(Labels::new(labels, inputs.volume.grid(), inputs.volume.anatomy(), label_lookup))
+            let labels = data.labels.ok_or(RenderError::NoLabels)?;
+            Some(Labels::new(labels, data.volume.grid(), data.volume.anatomy(), label_lookup))
         } else {
             None
         };

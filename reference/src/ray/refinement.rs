@@ -5,11 +5,11 @@
 
 use super::composite::Sums;
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
-use super::inputs::Backdrop;
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
+use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::{Rgba, linear_to_srgb};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::parallel;

@@ -2,12 +2,12 @@
 
 use super::composite::{plane_order, ray_order};
 use super::draw::{Band, Casting, Drawn, draw, largest_band, rays_of_tiles};
-use super::inputs::{Backdrop, Inputs, RenderError};
+use super::error::RenderError;
 use super::lanes;
 use super::lattice::samples_in;
 use super::merged;
 use super::pick::{Picked, pick};
-use super::prepare::{gradient_range, measured, prepare, turn};
+use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
 use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
@@ -15,9 +15,10 @@ use crate::field::Sampler;
 use crate::labels::Labels;
 use crate::number::Real;
 use crate::with_sampler;
+use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
-use drypoint_scene::measured::Measured;
+use drypoint_scene::inputs::Inputs;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
@@ -97,7 +98,7 @@ impl<'a> Renderer<'a> {
             halos.skip = None;
         }
         prepared.object.field = prepared.object.field.with_formula(phantom);
-        let [object] = &shot.objects;
+        let object = shot.background();
         if let Some(range) = object.gradient_range {
             prepared.object.gradient_range = Some(gradient_range(&prepared.object.field, range, &mut counts));
         }
@@ -105,8 +106,9 @@ impl<'a> Renderer<'a> {
     }
 
     fn of(ready: Ready<'a>, shot: &Shot, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
-        counts.bytes.insert("volume".into(), inputs.volume.voxels().bytes() as u64);
-        if let Some(mask) = inputs.volume.mask() {
+        let (object, volume) = (shot.background(), inputs.main.volume);
+        counts.bytes.insert("volume".into(), volume.voxels().bytes() as u64);
+        if let Some(mask) = volume.mask() {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
         counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
@@ -114,9 +116,8 @@ impl<'a> Renderer<'a> {
             Ready::F64(p) if p.halos.is_none() && lanes::serve(p) => Order::Lanes,
             _ => Order::Rays,
         };
-        let ([object], volume) = (&shot.objects, inputs.volume);
-        let labels =
-            inputs.labels.map(|labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup));
+        let labels = inputs.main.labels;
+        let labels = labels.map(|labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup));
         Self { ready, background: inputs.background, labels, counts, tile: TILE, band: BAND, order }
     }
 
@@ -207,14 +208,6 @@ impl<'a> Renderer<'a> {
         match &mut self.ready {
             Ready::F64(p) => p.lines = lines,
             Ready::F32(p) => p.lines = lines,
-        }
-    }
-
-    /// The facts that another renderer of the same shot needs: those of the volume, then those of each part's.
-    pub fn measured(&self, shot: &Shot) -> Vec<Measured> {
-        match &self.ready {
-            Ready::F64(p) => measured(p, shot),
-            Ready::F32(p) => measured(p, shot),
         }
     }
 

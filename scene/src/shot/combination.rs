@@ -7,7 +7,6 @@ use crate::tables::{
     Cut, Dab, Fuzzy, IntersectionColor, IntersectionOpacity, IntersectionTable, ObjectTable, Opposite, Role, Scene,
 };
 use crate::transfer::Function;
-use crate::view::View;
 use crate::volume::{BRICK, Bricks};
 use glam::{DAffine3, DVec3};
 use serde::Serialize;
@@ -57,15 +56,13 @@ pub enum Membership {
     Voxels,
 }
 
-/// A selection or a ghost as it is drawn.
+/// A selection or a ghost as it is drawn: the place of one of [`Shot::objects`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
     /// The place of its object.
     pub object: usize,
     /// Whether it is the selection or the ghost.
     pub role: Role,
-    /// Its data, function and material.
-    pub drawn: Object,
     /// The planes that cut it, in the index space of its data where it is drawn.
     pub clipping: Clipping,
     /// The seeds of halos among its samples; none: no halo takes any.
@@ -158,7 +155,7 @@ impl Shot {
     /// # Errors
     /// See [`Shot::resolve`], of a part; an object of more than [`MOST_STEPS`] steps across.
     pub fn with_objects(
-        self,
+        mut self,
         scene: &Scene,
         main: VolumeFacts<'_>,
         range: [f64; 2],
@@ -175,14 +172,16 @@ impl Shot {
             }
         }
         let places: Vec<(usize, Role)> = scene.parts().collect();
-        let parts: Result<Vec<Part>, ShotError> = places
-            .iter()
-            .zip(facts)
-            .map(|(&(object, role), facts)| {
-                let motion = described[object].motion.filter(|_| role == Role::Selection);
-                Part::new((object, role), motion, facts, &self.view, main)
-            })
-            .collect();
+        let mut parts = Vec::new();
+        for (&(object, role), facts) in places.iter().zip(facts) {
+            let of_data = VolumeFacts { grid: main.grid, is_integer: facts.is_integer };
+            let drawn = Object::resolve(facts.scene, facts.plan, of_data, facts.function.clone(), &self.view)?;
+            let motion = described[object].motion.filter(|_| role == Role::Selection);
+            let clipping = Clipping::of_part(facts.scene, main.grid, &placed(facts.grid, motion)?);
+            let seeds = PartSeeds::new(facts.scene, facts.plan, main.grid, &drawn.function)?;
+            parts.push(Part { object, role, clipping, seeds });
+            self.objects.push(drawn);
+        }
         let place = |object: usize, role: Role| places.iter().position(|&part| part == (object, role));
         let cutaways = scene.objects.iter().enumerate().flat_map(|(i, table)| {
             let sigma = table.funnel.map_or(0.0, |length| scene.picture.in_pixels(length).unwrap_or(0.0));
@@ -221,12 +220,13 @@ impl Shot {
         };
         let combination = Combination {
             fuzzy: scene.combine.map_or(Fuzzy::Zadeh, |table| table.fuzzy),
-            parts: parts?,
+            parts,
             cutaways,
             intersections: scene.intersections.iter().enumerate().filter_map(intersection).collect(),
             selections: described,
         };
-        Ok(Self { combination: Some(combination), ..self })
+        self.combination = Some(combination);
+        Ok(self)
     }
 }
 
@@ -290,23 +290,6 @@ fn has_members(pairs: &[[f64; 2]], [lo, hi]: [f64; 2]) -> bool {
         let after = pairs.get(i + 1).map_or(f64::INFINITY, |pair| pair[0]);
         before <= hi && lo <= after
     })
-}
-
-impl Part {
-    fn new(
-        (object, role): (usize, Role),
-        motion: Option<DAffine3>,
-        facts: &PartFacts<'_>,
-        view: &View,
-        main: VolumeFacts<'_>,
-    ) -> Result<Self, ShotError> {
-        let of_data = VolumeFacts { grid: main.grid, is_integer: facts.is_integer };
-        let drawn = Object::resolve(facts.scene, facts.plan, of_data, facts.function.clone(), view)?;
-        let placed = placed(facts.grid, motion)?;
-        let clipping = Clipping::of_part(facts.scene, main.grid, &placed);
-        let seeds = PartSeeds::new(facts.scene, facts.plan, main.grid, &drawn.function)?;
-        Ok(Self { object, role, drawn, clipping, seeds })
-    }
 }
 
 /// A grid where a motion puts it.

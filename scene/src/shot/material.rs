@@ -1,7 +1,7 @@
 //! Materials of samples, and the light on colours.
 
 use super::{Kappa, Mix, ShotError, SphereFrame, Transparency};
-use crate::lighting::{LightingModel, LightingPreset, LightingTable};
+use crate::lighting::{ContourRule, LightingModel, LightingPreset, LightingTable};
 use crate::space::Grid;
 use crate::tables::{
     LightDirection, Scene, Shading, ShadingModel, SilhouetteShading, Surface, SurfaceLook, Tone, ToonShading,
@@ -32,6 +32,10 @@ pub struct Illumination {
     pub silhouette: Option<f64>,
     /// s: the growth of the opacity of samples that are seen from the side ([HATCH-15]); 0: opacities are as they are.
     pub view_opacity: f64,
+    /// The light as the scene gives it: L of `lighting` follows from it and from the view.
+    pub light: LightDirection,
+    /// The rule by which the contour factor of a lighting preset follows from the light.
+    pub contour: ContourRule,
 }
 
 /// A reflection of light.
@@ -162,9 +166,24 @@ impl Material {
     }
 }
 
+impl Material {
+    /// Points the light where another view has it. Styles are lit in eye space.
+    pub(super) fn turn(&mut self, view: &View) {
+        if let Self::Regular(illumination) = self {
+            illumination.turn(view);
+        }
+    }
+}
+
 impl Illumination {
     /// Colours as they are.
-    pub const FLAT: Self = Self { lighting: Lighting::Flat, silhouette: None, view_opacity: 0.0 };
+    pub const FLAT: Self = Self {
+        lighting: Lighting::Flat,
+        silhouette: None,
+        view_opacity: 0.0,
+        light: LightDirection::Head,
+        contour: ContourRule::Exact,
+    };
 
     /// Whether it is reflection alone: no silhouettes, opacities as they are.
     pub fn is_plain(&self) -> bool {
@@ -179,7 +198,8 @@ impl Illumination {
             (_, Some(tones)) => Lighting::Toon(ToonParams::new(&tones, light, view)),
             (_, None) => Lighting::Phong(PhongParams::new(shading, light, view)),
         };
-        Ok(Self { lighting, silhouette: offset(shading.silhouette), view_opacity: shading.view_opacity })
+        let (silhouette, view_opacity) = (offset(shading.silhouette), shading.view_opacity);
+        Ok(Self { lighting, silhouette, view_opacity, light, contour: shading.contour })
     }
 
     /// By the look of an iso-surface, with the light and the constants of `[shading]` or their defaults.
@@ -192,15 +212,37 @@ impl Illumination {
             }
             (None, _) => Lighting::Flat,
         };
-        Self { lighting, silhouette: offset(surface.silhouette), view_opacity: 0.0 }
+        Self { lighting, silhouette: offset(surface.silhouette), light, ..Self::FLAT }
     }
 
     /// The light on meshes: Blinn–Phong, with the constants of `[shading]` or their defaults.
     pub(super) fn of_mesh(scene: &Scene, view: &View) -> Self {
         let shading = scene.shading.clone().unwrap_or_default();
         let light = shading.light.unwrap_or(scene.light);
-        Self { lighting: Lighting::Phong(PhongParams::new(&shading, light, view)), ..Self::FLAT }
+        Self { lighting: Lighting::Phong(PhongParams::new(&shading, light, view)), light, ..Self::FLAT }
     }
+
+    /// Points the light where another view has it.
+    pub(super) fn turn(&mut self, view: &View) {
+        let towards = view.towards(self.light);
+        match &mut self.lighting {
+            Lighting::Flat => {}
+            Lighting::Phong(phong) => phong.light = towards,
+            Lighting::Toon(toon) => toon.light = towards,
+            Lighting::Function(function) => {
+                function.light = towards;
+                if let LightingSource::Preset(model) = &mut function.source {
+                    model.contour_factor = contour_factor(self.contour, towards, view);
+                    function.table = Arc::new(model.table());
+                }
+            }
+        }
+    }
+}
+
+/// c of a lighting preset ([VS-5]), of v at the picture's centre.
+fn contour_factor(rule: ContourRule, light: DVec3, view: &View) -> f64 {
+    rule.factor(light.dot(-view.forward))
 }
 
 /// The offset of a table of silhouettes.
@@ -227,8 +269,7 @@ impl LightingParams {
             (None, preset) => {
                 let &Shading { ambient, diffuse, specular, shininess, .. } = shading;
                 let preset = preset.unwrap_or(LightingPreset::BlinnPhong);
-                // v at the picture's centre.
-                let contour_factor = shading.contour.factor(light.dot(-view.forward));
+                let contour_factor = contour_factor(shading.contour, light, view);
                 let model = LightingModel { preset, ambient, diffuse, specular, shininess, contour_factor };
                 (LightingSource::Preset(model), Arc::new(model.table()))
             }

@@ -60,9 +60,10 @@ pub struct Shot {
     pub refine_above: Option<f64>,
     /// The number type of samples.
     pub number: Number,
-    /// The volume of `[volume]`; with objects the background.
-    pub objects: [Object; 1],
-    /// Objects that are drawn with it ([VS-2]); none: none.
+    /// The volumes that are drawn. The first is that of `[volume]`, which is the background of the others; they are the parts
+    /// of [`combination`](Self::combination), in its order.
+    pub objects: Vec<Object>,
+    /// The combination of the objects ([VS-2]); none: there is one.
     pub combination: Option<Combination>,
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
@@ -218,7 +219,7 @@ impl Shot {
             number: sampling.number,
             clipping: Clipping::new(scene, facts.grid),
             halos,
-            objects: [object],
+            objects: vec![object],
             combination: None,
             surface,
             meshes: MeshParams::all(scene, &view),
@@ -228,6 +229,31 @@ impl Shot {
             layers: if layers.is_empty() { vec![LayerKind::Beauty] } else { layers.clone() },
             view,
         })
+    }
+
+    /// The object of `[volume]`.
+    ///
+    /// # Panics
+    /// If there is no object: a shot that was resolved has one.
+    pub fn background(&self) -> &Object {
+        &self.objects[0]
+    }
+
+    /// The selections and ghosts, each with its object.
+    pub fn parts(&self) -> impl Iterator<Item = (&Part, &Object)> {
+        let parts = self.combination.iter().flat_map(|combination| &combination.parts);
+        parts.zip(self.objects.iter().skip(1))
+    }
+
+    /// Returns the shot of another view with the same lens and picture. Only the lights depend on it; nothing is planned.
+    #[must_use]
+    pub fn seen_from(&self, view: View) -> Self {
+        let mut shot = self.clone();
+        shot.objects.iter_mut().for_each(|object| object.material.turn(&view));
+        let lit = shot.surface.iter_mut().map(|surface| &mut surface.lit);
+        lit.chain(shot.meshes.iter_mut().map(|mesh| &mut mesh.lit)).for_each(|lit| lit.turn(&view));
+        shot.view = view;
+        shot
     }
 
     /// The shot as JSON, for a person who writes another renderer.
@@ -317,6 +343,49 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::file::{Overrides, parse};
+    use crate::tables::Camera;
+    use crate::volume::{Volume, Voxels};
+    use glam::DVec3;
+    use std::path::Path;
+
+    /// Every light, in every model of shading, turns with the view as if the scene were resolved for it.
+    #[test]
+    fn a_shot_of_another_view_is_that_of_the_scene() {
+        let lights = ["\"head\"", "[1, 2, 3]", "{ world = [1, 2, 3] }"];
+        let models = [
+            "",
+            "[shading]\nmodel = \"toon\"\n",
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"cartoon\"\n",
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"blinn-phong-contours\"\n",
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"blinn-phong-contours\"\ncontour = \"printed\"\n",
+        ];
+        let surface = "[surface]\niso = 5\nlook = \"phong\"\n";
+        let mesh = "[[mesh]]\nfile = \"a.ply\"\n";
+        let transfer = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\", opacity = 1 }]\n";
+        let grid = Grid::with_spacing([9, 9, 9], [0.5, 1.0, 1.0]).unwrap();
+        let volume = Volume::new(grid.clone(), Voxels::U8(vec![0; 729]), 1.0, 0.0).unwrap();
+        let mut turned = 0;
+        for (light, model) in lights.into_iter().flat_map(|light| models.map(|model| (light, model))) {
+            let text =
+                format!("drypoint = 1\nlight = {light}\n[volume]\nfile = \"a.nrrd\"\n{transfer}{model}{surface}{mesh}");
+            let scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
+            let function = Function::new(scene.transfer.as_ref().unwrap(), [0.0, 9.0], &volume, &|_| None).unwrap();
+            let (function, plan) = (Arc::new(function.unwrap()), Plan::new(&scene));
+            let views = [DVec3::NEG_Z, DVec3::new(1.0, 1.0, -0.5)].map(|direction| {
+                let camera = Camera { direction, direction_given: true, ..Camera::default() };
+                View::new(&camera, &grid, [20, 10]).unwrap()
+            });
+            let [first, second] = views.map(|view| {
+                let facts = VolumeFacts { grid: &grid, is_integer: true };
+                Shot::resolve(&scene, &plan, facts, function.clone(), view).unwrap()
+            });
+            assert_eq!(first.seen_from(second.view.clone()), second, "{text}");
+            turned += usize::from(first.objects[0].material != second.objects[0].material);
+        }
+        // With a light of the world only the exact rule of contours reads the view; without shading nothing does.
+        assert_eq!(turned, 2 * 4 + 2);
+    }
 
     #[test]
     fn only_facing_normals_are_lines() {

@@ -13,6 +13,7 @@ use crate::quantity::Quantity;
 use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use glam::DVec3;
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 table! {
@@ -73,7 +74,8 @@ choices! {
 }
 
 /// Towards the light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LightDirection {
     /// Eye space (0, 0, 1) at every sample.
     Head,

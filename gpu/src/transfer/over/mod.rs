@@ -1,10 +1,11 @@
 //! Transfer functions over two quantities ([STF-4]).
 
+use crate::GpuError;
 use crate::field::{Scales, mask};
+use crate::inputs::ObjectInputs;
 use crate::module::{Module, module};
 use crate::number::NUMBER;
 use crate::shader::{Constant, Data, Shader};
-use crate::{GpuError, Inputs};
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::other_grid::OtherGrid;
@@ -25,12 +26,12 @@ pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
     rows: &Rows,
-    inputs: &Inputs<'_>,
+    inputs: &ObjectInputs<'_>,
     scales: &Scales,
 ) -> Result<(), GpuError> {
-    let [object] = &shot.objects;
+    let object = shot.background();
     let (at, opacity, _) = object.function.nodes();
-    let further = [0, 1].map(|axis| inputs.further[axis].map(Further::new));
+    let further = [0, 1].map(|axis| inputs.data.further[axis].map(Further::new));
     let scaled = |axis: usize, at: &[f64]| -> Vec<f64> {
         let place = |&at: &f64| match (&rows.over[axis], &further[axis]) {
             (Axis::Value, _) => scales.value(at),
@@ -58,7 +59,7 @@ pub(crate) fn add(
         let expression = match (&rows.over[axis], &further[axis]) {
             (Axis::DistanceToLabel(_), _) => {
                 let distances = inputs.measured.label_distances[axis].as_ref().ok_or(GpuError::Material)?;
-                let call = call("on_grid", numbers.len(), inputs.volume.dims(), "sample.at");
+                let call = call("on_grid", numbers.len(), inputs.data.volume.dims(), "sample.at");
                 numbers.extend_from_slice(distances);
                 call
             }
@@ -125,10 +126,10 @@ impl<'a> Further<'a> {
     }
 
     /// Appends the map from the data's index space, row by row, and the voxels.
-    fn append(&self, numbers: &mut Vec<f64>, inputs: &Inputs<'_>) {
+    fn append(&self, numbers: &mut Vec<f64>, inputs: &ObjectInputs<'_>) {
         let Self { volume, .. } = self;
-        let own = Anatomy::between(volume.grid(), volume.anatomy(), inputs.volume.anatomy());
-        let map = OtherGrid::new(inputs.volume.grid(), &own);
+        let own = Anatomy::between(volume.grid(), volume.anatomy(), inputs.data.volume.anatomy());
+        let map = OtherGrid::new(inputs.data.volume.grid(), &own);
         let (linear, offset) = map.map_or((DMat3::IDENTITY, DVec3::ZERO), |map| map.parts());
         for row in 0..3 {
             numbers.extend(linear.row(row).to_array());
@@ -150,9 +151,9 @@ fn coordinate(
     axis: usize,
     rows: &Rows,
     shot: &Shot,
-    inputs: &Inputs<'_>,
+    inputs: &ObjectInputs<'_>,
 ) -> Result<String, GpuError> {
-    let grid = inputs.volume.grid();
+    let grid = inputs.data.volume.grid();
     let number = match &rows.over[axis] {
         Axis::Value => "sample.s".to_owned(),
         Axis::GradientMagnitude => {
@@ -186,14 +187,14 @@ fn coordinate(
 }
 
 /// Adds the labels of positions, once.
-pub(crate) fn add_label_lookup(shader: &mut Shader, shot: &Shot, inputs: &Inputs<'_>) -> Result<(), GpuError> {
+pub(crate) fn add_label_lookup(shader: &mut Shader, shot: &Shot, inputs: &ObjectInputs<'_>) -> Result<(), GpuError> {
     if shader.modules.contains(&module!("label")) {
         return Ok(());
     }
-    let labels = inputs.labels.ok_or(GpuError::Material)?;
-    let own = labels.grid_in(inputs.volume.anatomy());
+    let labels = inputs.data.labels.ok_or(GpuError::Material)?;
+    let own = labels.grid_in(inputs.data.volume.anatomy());
     add_labels(shader, labels, &own, shot.objects[0].label_lookup);
-    add_map(shader, inputs.volume.grid(), &own);
+    add_map(shader, inputs.data.volume.grid(), &own);
     Ok(())
 }
 

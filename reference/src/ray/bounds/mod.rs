@@ -14,7 +14,7 @@ mod surface;
 pub use positions::RayOrigin;
 
 use super::draw::behind;
-use super::inputs::{Inputs, RenderError};
+use super::error::RenderError;
 use super::prepare::prepare;
 use super::prepared::Prepared;
 use super::render::Renderer;
@@ -24,6 +24,7 @@ use crate::number::{Bounded, Decision, Real};
 use cast::Traced;
 use drypoint_scene::color::{self, Rgba};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::inputs::Inputs;
 use drypoint_scene::parallel;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
@@ -70,10 +71,10 @@ impl Renderer<'_> {
     #[inline]
     pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
-        let is_elsewhere = |further: &&Volume| further.grid() != inputs.volume.grid();
+        let is_elsewhere = |further: &&Volume| further.grid() != inputs.main.volume.grid();
         let (has_surface, kernel) = (prepared.surface.is_some(), prepared.object.field.reconstruction().kernel);
         let unknown = [
-            (inputs.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
+            (inputs.main.further.iter().flatten().any(is_elsewhere), "a further volume on another grid"),
             (prepared.halos.is_some(), "halos"),
             (prepared.combination.is_some(), "objects"),
             (prepared.meshes.is_some(), "meshes"),

@@ -12,9 +12,13 @@ use crate::volumeshop::far_side::through_box;
 use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersections};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, IntersectionPaint};
+use smallvec::{SmallVec, smallvec};
 
 /// The share of a step by which a sample has to lie before the end of a funnel.
 const SLACK: f64 = 1.0 / (1u64 << 32) as f64;
+
+/// The number of sets at a sample, intersections among them, that take no memory of the heap.
+const INLINE: usize = 16;
 
 /// The objects on a ray.
 pub(super) struct ObjectRay<'p, 'v, R: Real> {
@@ -160,7 +164,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let largest = self.largest(of_background.as_ref())?;
 
         // Eqs. 6 and 7: intersections, taken out of the sets that meet.
-        let mut sets = Vec::with_capacity(1 + 2 * self.parts.len());
+        let mut sets: SmallVec<[ObjectSet<R>; INLINE]> = SmallVec::new();
         let set = |found: &FoundPart<R>, shares| ObjectSet { rgb: found.rgb, mu: found.mu, shares };
         sets.push(of_background.as_ref().map_or(ObjectSet::NONE, |found| set(found, true)));
         for (part, found) in self.parts.iter().zip(&self.found) {
@@ -168,7 +172,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             sets.push(found.as_ref().map_or(ObjectSet::NONE, |found| set(found, shares)));
         }
         if !combination.intersections.is_empty() {
-            let mut taken = vec![R::ZERO; self.parts.len()];
+            let mut taken: SmallVec<[R; INLINE]> = smallvec![R::ZERO; self.parts.len()];
             for intersection in &combination.intersections {
                 let meeting = self.meeting(intersection, of_background.as_ref(), counts);
                 let Some(meeting) = meeting.filter(|set| set.mu > R::ZERO) else { continue };
@@ -182,7 +186,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
                 set.without(fuzzy, taken);
             }
         }
-        let (rgb, alpha) = combined(fuzzy, sets.into_iter());
+        let (rgb, alpha) = combined(fuzzy, sets.iter().copied());
         Some(Together { rgb, alpha, largest })
     }
 
@@ -199,11 +203,9 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             return Shares::whole();
         }
         let taken = self.selections.iter().zip(&combination.selections).filter(takes);
-        let mut memberships = Vec::with_capacity(self.selections.len());
-        for (ray, selection) in taken {
-            memberships.push(ray.here.membership(selection, k, || Some(here.sample(&self.behind, counts)?.s)));
-        }
-        Shares::beside(combination.fuzzy, memberships.into_iter())
+        let mut value = || Some(here.sample(&self.behind, counts)?.s);
+        let memberships = taken.map(|(ray, selection)| ray.here.membership(selection, k, &mut value));
+        Shares::beside(combination.fuzzy, memberships)
     }
 
     /// Whether sample k is one of the background, with a share that no cutaway removes.

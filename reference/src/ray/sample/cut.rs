@@ -2,7 +2,7 @@
 
 use super::{EyeAxes, SampleAttributes, ViewDirs};
 use crate::number::{Real, Vec3};
-use crate::ray::inputs::RenderError;
+use crate::ray::error::RenderError;
 use crate::style_transfer_functions::{SphereMap, frame};
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::shot::{Cap, Clipping, SphereFrame};

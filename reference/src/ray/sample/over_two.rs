@@ -3,13 +3,14 @@
 use crate::field::Field;
 use crate::labels::Labels;
 use crate::number::Real;
-use crate::ray::inputs::{Inputs, RenderError};
+use crate::ray::error::RenderError;
 use crate::transfer::over::{
     AxisMeasure, CurvatureMeasure, GradientMagnitude, LabelDistance, OtherVolume, PointDistance, SampleLabel,
     SampleQuantities, SampleValue,
 };
 use crate::transfer::{NodePatch, TransferPlane};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::inputs::ObjectData;
 use drypoint_scene::math;
 use drypoint_scene::shot::{Axis, LabelLookup, Object, SampleQuery};
 use drypoint_scene::transfer::Rows;
@@ -33,12 +34,12 @@ impl<'v, R: Real> OverTwo<'v, R> {
     pub(crate) fn new(
         (at, opacity): (&[f64], &[f64]),
         rows: &Rows,
-        inputs: &Inputs<'v>,
+        data: &ObjectData<'v>,
         object: &Object,
         field: &Field<'_, R>,
         counts: &mut Counts,
     ) -> Result<Self, RenderError> {
-        let [across, down] = [0, 1].map(|i| measure(&rows.over[i], i, rows.normalized, inputs, object.label_lookup));
+        let [across, down] = [0, 1].map(|i| measure(&rows.over[i], i, rows.normalized, data, object.label_lookup));
         let measures = [across?, down?];
         for measure in &measures {
             if let Some((name, bytes)) = measure.bytes() {
@@ -58,11 +59,6 @@ impl<'v, R: Real> OverTwo<'v, R> {
         Ok(Self { plane, measures, first, rest })
     }
 
-    /// The numbers at voxels of each quantity that was measured there.
-    pub(crate) fn at_voxels(&self) -> [Option<Vec<f64>>; 2] {
-        self.measures.each_ref().map(|measure| measure.at_voxels())
-    }
-
     /// The place of a sample between the nodes; none where it is transparent.
     #[inline]
     pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<NodePatch<R>> {
@@ -76,10 +72,10 @@ fn measure<'v, R: Real>(
     axis: &Axis<u32>,
     which: usize,
     normalized: bool,
-    inputs: &Inputs<'v>,
+    data: &ObjectData<'v>,
     label_lookup: LabelLookup,
 ) -> Result<Box<dyn AxisMeasure<R> + 'v>, RenderError> {
-    let data = inputs.volume;
+    let (volume, labels) = (data.volume, || data.labels.ok_or(RenderError::NoLabels));
     Ok(match axis {
         Axis::Value => Box::new(SampleValue),
         Axis::GradientMagnitude if normalized => Box::new(GradientMagnitude::Normalized),
@@ -89,18 +85,14 @@ fn measure<'v, R: Real>(
         Axis::Mean => Box::new(CurvatureMeasure::Mean),
         Axis::Gaussian => Box::new(CurvatureMeasure::Gaussian),
         Axis::AlongView => Box::new(CurvatureMeasure::AlongView),
-        Axis::Distance(point) => Box::new(PointDistance::new(data.grid(), *point)),
+        Axis::Distance(point) => Box::new(PointDistance::new(volume.grid(), *point)),
         Axis::Volume(_) => {
-            let volume = inputs.further[which].ok_or(RenderError::NoFurtherVolume)?;
-            Box::new(OtherVolume::new(volume, data)?)
+            let further = data.further[which].ok_or(RenderError::NoFurtherVolume)?;
+            Box::new(OtherVolume::new(further, volume)?)
         }
-        Axis::Label => {
-            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
-            Box::new(SampleLabel(Labels::new(labels, data.grid(), data.anatomy(), label_lookup)))
-        }
+        Axis::Label => Box::new(SampleLabel(Labels::new(labels()?, volume.grid(), volume.anatomy(), label_lookup))),
         Axis::DistanceToLabel(id) => {
-            let labels = inputs.labels.ok_or(RenderError::NoLabels)?;
-            let distance = LabelDistance::new(data, labels, *id);
+            let distance = LabelDistance::new(volume, labels()?, *id);
             Box::new(distance.ok_or(RenderError::NoSuchLabel { id: *id })?)
         }
     })

@@ -3,7 +3,7 @@
 use super::{EyeAxes, Lit, SampleAttributes, ViewDirs};
 use crate::interactive_volume_illustration::ViewOpacity;
 use crate::number::{Real, Vec3};
-use crate::ray::inputs::RenderError;
+use crate::ray::error::RenderError;
 use crate::ray::opacity::Correction;
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};

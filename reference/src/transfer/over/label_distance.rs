@@ -50,6 +50,11 @@ impl<R: Real> LabelDistance<R> {
         Some(Self { dims: data.dims(), distances })
     }
 
+    /// The distances at voxels, x fastest.
+    pub(crate) fn at_voxels(&self) -> Vec<f64> {
+        self.distances.iter().map(|distance| distance.to_f64()).collect()
+    }
+
     /// The distance at a place of the data's grid: three nested interpolations, x then y then z.
     fn value(&self, at: Place<R>) -> R {
         let [nx, ny, nz] = self.dims;
@@ -68,10 +73,6 @@ impl<R: Real> LabelDistance<R> {
 impl<R: Real> AxisMeasure<R> for LabelDistance<R> {
     fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         Coordinate::Number(self.value(here.place))
-    }
-
-    fn at_voxels(&self) -> Option<Vec<f64>> {
-        Some(self.distances.iter().map(|distance| distance.to_f64()).collect())
     }
 
     fn bytes(&self) -> Option<(&'static str, u64)> {

@@ -44,11 +44,6 @@ pub trait AxisMeasure<R: Real>: Send + Sync {
     /// The quantity at a sample.
     fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R>;
 
-    /// The numbers at the data's voxels, x fastest. Returns none if the quantity is measured at samples alone.
-    fn at_voxels(&self) -> Option<Vec<f64>> {
-        None
-    }
-
     /// Name and size in bytes of the stored data. Returns none if nothing is stored.
     fn bytes(&self) -> Option<(&'static str, u64)> {
         None

@@ -1,47 +1,8 @@
-//! The data that a picture is made of, and what can be wrong with it.
+//! Pictures that cannot be made.
 
 use super::lattice::{MOST_ACROSS, MOST_SAMPLES};
 use crate::field::FieldError;
 use crate::transfer::NodesError;
-pub use drypoint_scene::backdrop::Backdrop;
-use drypoint_scene::intersection_picture::IntersectionPicture;
-use drypoint_scene::mesh::TriangleMesh;
-use drypoint_scene::style::Style;
-use drypoint_scene::volume::labels::LabelVolume;
-use drypoint_scene::volume::{Selection, Volume};
-
-/// The data that a shot names.
-#[derive(Clone, Debug)]
-pub struct Inputs<'a> {
-    /// The volume.
-    pub volume: &'a Volume,
-    /// The labels beside the volume, where the function reads them ([STF-13]).
-    pub labels: Option<&'a LabelVolume>,
-    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
-    pub further: [Option<&'a Volume>; 2],
-    /// The styles that the function names, in the order of [`Function::Style::names`](drypoint_scene::transfer::Function::Style::names),
-    /// then those that caps name, in the order of [`Clipping::styles`](drypoint_scene::shot::Clipping::styles).
-    pub styles: &'a [Style],
-    /// The meshes of the shot, in its order, in the world ([VS-12]).
-    pub meshes: &'a [TriangleMesh],
-    /// The background.
-    pub background: Backdrop<'a>,
-    /// The data of objects; by default of none.
-    pub objects: ObjectInputs<'a>,
-}
-
-/// The data of a shot's objects ([VS-2]).
-#[derive(Clone, Debug, Default)]
-pub struct ObjectInputs<'a> {
-    /// The data of each of [`Combination::parts`](drypoint_scene::shot::Combination::parts).
-    pub parts: Vec<Inputs<'a>>,
-    /// The memberships of each of [`Combination::selections`](drypoint_scene::shot::Combination::selections) that is
-    /// [`Voxels`](drypoint_scene::shot::Membership::Voxels).
-    pub selections: Vec<Option<&'a Selection>>,
-    /// The picture of each of [`Combination::intersections`](drypoint_scene::shot::Combination::intersections) whose colour is
-    /// one.
-    pub pictures: Vec<Option<&'a IntersectionPicture>>,
-}
 
 /// A picture that cannot be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
