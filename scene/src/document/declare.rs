@@ -73,14 +73,14 @@ pub(crate) fn unless_empty<T: Clone>(list: &[T]) -> Option<Vec<T>> {
 /// field of the same name. One closure reads the key's value from the table, a second one writes it there; without
 /// the second one the field takes the value. Methods of [`Key`](super::describe::Key) follow.
 ///
-/// The macro is for a struct that other rooms or files declare. Any other table is a [`table!`](table).
+/// The macro is for structs that stand in other files. Any other table is a [`table!`](table).
 ///
 /// ```text
 /// keys! { RawLayout {
 ///     /// Bytes before the first voxel.
 ///     skip: key("IO-1", BYTES);
 ///     /// Stored type of a voxel.
-///     type: key("IO-1", VOXEL_TYPE, |t| …, |t, v| …).required();
+///     voxel_type: key("IO-1", VOXEL_TYPE).named("type").required();
 /// } }
 /// ```
 macro_rules! keys {
