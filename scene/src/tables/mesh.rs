@@ -13,6 +13,8 @@ table! {
     #[derive(Clone, Debug, PartialEq)]
     pub struct MeshTable {
         /// A file of triangles or polygons, PLY, STL or OBJ, in the world units of the volume.
+        ///
+        /// The path is resolved like that of the volume.
         file: PathBuf = PathBuf::new(), key("VS-12", PathTo { what: "a mesh" }).required();
         /// The colour of the mesh.
         ///

@@ -42,8 +42,7 @@ table! {
         profile: Vec<ProfileNode> = vec![
             ProfileNode { at: 0.2, rgb: [0.0; 3], opacity: 0.0 },
             ProfileNode { at: 0.6, rgb: [0.0; 3], opacity: 0.8 },
-        ],
-            key("HALO-6", Profile);
+        ], key("HALO-6", Profile);
         /// Factor of the profile's opacities.
         opacity: f64 = 1.0, key("HALO-6", UNIT);
         /// Seeds and intensities below it are 0.

@@ -60,6 +60,8 @@ table! {
         ids: Ids = Ids::Values, key("STF-13", Ids::KIND);
         /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
         /// another grid; outside its box the label is 0.
+        ///
+        /// The path is resolved like that of the volume.
         labels: Option<PathBuf> = None, key("STF-13", PathTo { what: "a label volume" }).absent("no labels");
         /// The names of the labels: a CSV file with an id and a name on each line.
         label_names: Option<PathBuf> = None,
