@@ -64,16 +64,23 @@ impl Holds<[f64; 3]> for Option<DVec3> {
     }
 }
 
+/// Returns the value of a key that has none where the list is empty.
+pub(crate) fn unless_empty<T: Clone>(list: &[T]) -> Option<Vec<T>> {
+    (!list.is_empty()).then(|| list.to_vec())
+}
+
 /// The keys of a table, each with its documentation, its rule and the kind of its value. A key without closures is the
-/// field of the same name. Any other key has two closures: one reads its value from the table, one writes it there.
-/// Methods of [`Key`](super::describe::Key) follow.
+/// field of the same name. One closure reads the key's value from the table, a second one writes it there; without
+/// the second one the field takes the value. Methods of [`Key`](super::describe::Key) follow.
+///
+/// The macro is for structs that stand in other files. Any other table is a [`table!`](table).
 ///
 /// ```text
-/// keys! { Camera {
-///     /// Up in the picture, in world space.
-///     up: key("RAY-6", DIRECTION);
-///     /// The way the camera looks.
-///     direction: key("RAY-5", DIRECTION, |c| …, |c, v| …).absent("towards the volume");
+/// keys! { RawLayout {
+///     /// Bytes before the first voxel.
+///     skip: key("IO-1", BYTES);
+///     /// Stored type of a voxel.
+///     voxel_type: key("IO-1", VOXEL_TYPE).named("type").required();
 /// } }
 /// ```
 macro_rules! keys {
@@ -90,7 +97,17 @@ macro_rules! keys {
             $doc,
             $tag,
             $kind,
-            |table| $crate::document::declare::Holds::get(&table.$name),
+            |table| $crate::document::declare::Holds::get(&table.$name)
+        )
+    };
+    (key $table:ty, $name:ident, $doc:expr, $tag:literal, $kind:expr, $get:expr) => {
+        $crate::document::declare::keys!(
+            key $table,
+            $name,
+            $doc,
+            $tag,
+            $kind,
+            $get,
             |table, value| $crate::document::declare::Holds::set(&mut table.$name, value)
         )
     };
@@ -104,31 +121,63 @@ macro_rules! keys {
     };
 }
 
-/// The struct of a table, its defaults, and its description with a key for each field, in their order. A field has its
-/// type, its default, and its key as in [`keys!`](keys).
+/// The struct of a table, its defaults, and its description. The keys stand in the order in which they are read,
+/// written and documented. A field has its type, its default, and its key as in [`keys!`](keys).
+///
+/// Where one field has several keys, or none, field and keys stand apart: a line without `key` is a field alone, and a
+/// line with `key` in place of the type is a key alone.
 ///
 /// ```text
 /// table! {
-///     /// The table `[page]`.
+///     /// One table `[[mesh]]`.
 ///     #[derive(Clone, Debug, PartialEq)]
-///     pub struct PageSettings {
-///         /// Whether a pen plotter draws it: one nib a layer, paths in the order of a short way.
-///         plotter: bool = false, key("IO-7", Flag);
+///     pub struct MeshTable {
+///         /// The colour of the mesh.
+///         color: Rgba = SILVER, key("VS-12", Colors);
+///         /// The place of the mesh in the world.
+///         motion: Motion = Motion::NONE;
+///         /// The way that the mesh is moved.
+///         shift: key("VS-12", WAY, |m| …, |m, v| …).named("move");
 ///     }
 /// }
 /// ```
 macro_rules! table {
-    (
-        $(#[$meta:meta])*
-        pub struct $table:ident {
-            $($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr, key($($how:tt)+)
-                $(.$more:ident($($with:tt)*))*;)+
+    ($(#[$meta:meta])* $visible:vis struct $table:ident { $($lines:tt)+ }) => {
+        $crate::document::declare::table! { sort [$(#[$meta])* $visible $table] {} {} $($lines)+ }
+    };
+    // The lines become a list of fields and a list of keys.
+    (sort $head:tt $fields:tt {$($keys:tt)*}
+        $(#[doc = $doc:literal])+ $name:ident: key($($how:tt)+) $(.$more:ident($($with:tt)*))*; $($rest:tt)*
+    ) => {
+        $crate::document::declare::table! {
+            sort $head $fields {$($keys)* $(#[doc = $doc])+ $name: key($($how)+)$(.$more($($with)*))*;} $($rest)*
         }
+    };
+    (sort $head:tt {$($fields:tt)*} $keys:tt
+        $(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr; $($rest:tt)*
+    ) => {
+        $crate::document::declare::table! {
+            sort $head {$($fields)* $(#[doc = $doc])+ $field: $type = $default;} $keys $($rest)*
+        }
+    };
+    (sort $head:tt {$($fields:tt)*} {$($keys:tt)*}
+        $(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr,
+            key($($how:tt)+) $(.$more:ident($($with:tt)*))*; $($rest:tt)*
+    ) => {
+        $crate::document::declare::table! {
+            sort $head
+            {$($fields)* $(#[doc = $doc])+ $field: $type = $default;}
+            {$($keys)* $(#[doc = $doc])+ $field: key($($how)+)$(.$more($($with)*))*;}
+            $($rest)*
+        }
+    };
+    (sort [$(#[$meta:meta])* $visible:vis $table:ident]
+        {$($(#[doc = $doc:literal])+ $field:ident: $type:ty = $default:expr;)+} {$($keys:tt)+}
     ) => {
         $(#[$meta])*
         #[allow(rustdoc::broken_intra_doc_links, reason = "[name] is a table of a scene file")]
-        pub struct $table {
-            $($(#[doc = $doc])+ pub $field: $type,)+
+        $visible struct $table {
+            $($(#[doc = $doc])+ $visible $field: $type,)+
         }
 
         impl Default for $table {
@@ -140,9 +189,7 @@ macro_rules! table {
         impl $table {
             /// The description of a table with these keys and no more to say of itself.
             const fn description(title: &'static str, doc: &'static str) -> $crate::document::describe::Table<Self> {
-                let keys = $crate::document::declare::keys! { $table {
-                    $($(#[doc = $doc])+ $field: key($($how)+)$(.$more($($with)*))*;)+
-                } };
+                let keys = $crate::document::declare::keys! { $table { $($keys)+ } };
                 $crate::document::describe::Table::new(title, doc, Self::default, keys)
             }
         }

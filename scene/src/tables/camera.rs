@@ -1,29 +1,72 @@
 //! `[camera]`: from where the volume is seen ([RAY-5], [RAY-6]).
 
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::Table;
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Number, Numbers, Rule, WORLD_LENGTH};
 use crate::tables::Length;
 use glam::DVec3;
 
-/// The table `[camera]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Camera {
-    /// Perspective or orthographic.
-    pub projection: Projection,
-    /// The way the camera looks, any length; used where `eye` is none.
-    pub direction: DVec3,
-    /// Place of the camera, in world space; none: [RAY-5]'s default from `direction`.
-    pub eye: Option<DVec3>,
-    /// Whether the scene gave `direction` beside `eye`: it then replaces `target`. False without `eye`.
-    pub direction_given: bool,
-    /// Point that the camera looks at, in world space; none: the centre of the volume's box.
-    pub target: Option<DVec3>,
-    /// Up in the picture.
-    pub up: DVec3,
-    /// Smallest eye depth of a sample, perspective; none: the step.
-    pub near: Option<Length>,
+table! {
+    /// The table `[camera]`.
+    ///
+    /// `direction` is read after `eye`: without `eye`, whether it was given says nothing.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Camera {
+        /// Projection of points.
+        projection: Projection = Projection::Perspective { fov: FOV }, key("RAY-6", Projected::KIND,
+            |c| {
+                Some(match c.projection {
+                    Projection::Perspective { .. } => Projected::Perspective,
+                    Projection::Orthographic { .. } => Projected::Orthographic,
+                })
+            },
+            |c, projected| {
+                c.projection = match projected {
+                    Projected::Perspective => Projection::Perspective { fov: FOV },
+                    Projected::Orthographic => Projection::Orthographic { height: None },
+                }
+            });
+        /// Vertical field of view in degrees; perspective.
+        fov: key("RAY-6", Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
+            |c| match c.projection {
+                Projection::Perspective { fov } => Some(fov),
+                Projection::Orthographic { .. } => None,
+            },
+            |c, v| {
+                if let Projection::Perspective { fov } = &mut c.projection {
+                    *fov = v;
+                }
+            });
+        /// From the bottom to the top of the picture; orthographic.
+        height: key("RAY-5", WORLD_LENGTH,
+            |c| match c.projection {
+                Projection::Perspective { .. } => None,
+                Projection::Orthographic { height } => height,
+            },
+            |c, v| {
+                if let Projection::Orthographic { height } = &mut c.projection {
+                    *height = Some(v);
+                }
+            }).absent("what shows the whole box of the volume");
+        /// Place of the camera, in world space. With `direction` beside it, `target` is unused.
+        eye: Option<DVec3> = None, key("RAY-5", POINT).absent("so far from the target that the whole box is seen");
+        /// Whether the scene gave `direction` beside `eye`: it then replaces `target`. False without `eye`.
+        direction_given: bool = false;
+        /// The way the camera looks, in world space, of any length.
+        direction: DVec3 = DVec3::new(-1.0, -0.4, -0.3), key("RAY-5", DIRECTION,
+            |c| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
+            |c, v| {
+                c.direction = DVec3::from_array(v);
+                c.direction_given = c.eye.is_some();
+            });
+        /// Point that the camera looks at, in world space.
+        target: Option<DVec3> = None, key("RAY-5", POINT).absent("the centre of the volume's box");
+        /// Up in the picture, in world space.
+        up: DVec3 = DVec3::Z, key("RAY-6", DIRECTION);
+        /// Smallest eye depth of a sample; perspective.
+        near: Option<Length> = None, key("RAY-1", WORLD_LENGTH).absent("`sampling.step`");
+    }
 }
 
 /// How points are projected.
@@ -39,20 +82,6 @@ pub enum Projection {
         /// From the bottom to the top of the picture, in the world; none: [RAY-5]'s default.
         height: Option<Length>,
     },
-}
-
-impl Default for Camera {
-    fn default() -> Self {
-        Self {
-            projection: Projection::Perspective { fov: FOV },
-            direction: DVec3::new(-1.0, -0.4, -0.3),
-            eye: None,
-            direction_given: false,
-            target: None,
-            up: DVec3::Z,
-            near: None,
-        }
-    }
 }
 
 choices! {
@@ -75,7 +104,7 @@ const POINT: Numbers<3> = Numbers { what: "a point [x, y, z]", bounds: Bounds::A
 /// A direction in world space, of any length.
 const DIRECTION: Numbers<3> = Numbers { what: "a direction [x, y, z]", bounds: Bounds::ANY, rule: Rule::Direction };
 
-/// The description of `[camera]`. `direction` is read after `eye`: without `eye`, whether it was given says nothing.
+/// The description of `[camera]`.
 pub(crate) static TABLE: Table<Camera> = Table {
     check: |camera, check| {
         if !camera.direction_given && camera.eye.is_some() && camera.eye == camera.target {
@@ -88,62 +117,5 @@ pub(crate) static TABLE: Table<Camera> = Table {
             );
         }
     },
-    ..Table::new(
-        "[camera]",
-        "From where the volume is seen: along `direction` at the target, or from `eye`.",
-        Camera::default,
-        keys! { Camera {
-            /// Projection of points.
-            projection: key("RAY-6", Projected::KIND,
-                |c| {
-                    Some(match c.projection {
-                        Projection::Perspective { .. } => Projected::Perspective,
-                        Projection::Orthographic { .. } => Projected::Orthographic,
-                    })
-                },
-                |c, projected| {
-                    c.projection = match projected {
-                        Projected::Perspective => Projection::Perspective { fov: FOV },
-                        Projected::Orthographic => Projection::Orthographic { height: None },
-                    }
-                });
-            /// Vertical field of view in degrees; perspective.
-            fov: key("RAY-6", Number { bounds: Bounds::between(0.0, 180.0), unit: ", in degrees" },
-                |c| match c.projection {
-                    Projection::Perspective { fov } => Some(fov),
-                    Projection::Orthographic { .. } => None,
-                },
-                |c, v| {
-                    if let Projection::Perspective { fov } = &mut c.projection {
-                        *fov = v;
-                    }
-                });
-            /// From the bottom to the top of the picture; orthographic.
-            height: key("RAY-5", WORLD_LENGTH,
-                |c| match c.projection {
-                    Projection::Perspective { .. } => None,
-                    Projection::Orthographic { height } => height,
-                },
-                |c, v| {
-                    if let Projection::Orthographic { height } = &mut c.projection {
-                        *height = Some(v);
-                    }
-                }).absent("what shows the whole box of the volume");
-            /// Place of the camera, in world space. With `direction` beside it, `target` is unused.
-            eye: key("RAY-5", POINT).absent("so far from the target that the whole box is seen");
-            /// The way the camera looks, in world space, of any length.
-            direction: key("RAY-5", DIRECTION,
-                |c| (c.eye.is_none() || c.direction_given).then(|| c.direction.to_array()),
-                |c, v| {
-                    c.direction = DVec3::from_array(v);
-                    c.direction_given = c.eye.is_some();
-                });
-            /// Point that the camera looks at, in world space.
-            target: key("RAY-5", POINT).absent("the centre of the volume's box");
-            /// Up in the picture, in world space.
-            up: key("RAY-6", DIRECTION);
-            /// Smallest eye depth of a sample; perspective.
-            near: key("RAY-1", WORLD_LENGTH).absent("`sampling.step`");
-        } },
-    )
+    ..Camera::description("[camera]", "From where the volume is seen: along `direction` at the target, or from `eye`.")
 };

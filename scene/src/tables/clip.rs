@@ -4,7 +4,7 @@ use super::nodes::StyleName;
 use super::object::{PartName, PartNames};
 use crate::color::Rgba;
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table, unless_empty};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
@@ -13,37 +13,29 @@ use crate::document::out::Out;
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
-/// One table `[[clip]]`: a plane by `point` and `normal`, or a box.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Clip {
-    /// A point on the plane.
-    pub point: Option<DVec3>,
-    /// The normal of the plane, of any length but 0. The side to which it points is cut away.
-    pub normal: Option<DVec3>,
-    /// The box that is kept, as lowest and highest coordinate on each axis; in place of a plane.
-    pub extent: Option<[[f64; 2]; 3]>,
-    /// The space of the coordinates.
-    pub space: ClipSpace,
-    /// The things that are cut; none: everything.
-    pub applies: Vec<PartName>,
-    /// The colour of cuts, linear and straight; none: their own.
-    pub cap: Option<Rgba>,
-    /// The style of cuts, in place of a colour.
-    pub style: Option<String>,
-}
-
-impl Default for Clip {
-    /// A clip that says neither a plane nor a box yet.
-    fn default() -> Self {
-        Self {
-            point: None,
-            normal: None,
-            extent: None,
-            space: ClipSpace::World,
-            applies: Vec::new(),
-            cap: None,
-            style: None,
-        }
+table! {
+    /// One table `[[clip]]`: a plane by `point` and `normal`, or a box. The default says neither yet.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Clip {
+        /// A point on the plane.
+        point: Option<DVec3> = None, key("RAY-8", POINT).absent("none: `box` has planes of its own");
+        /// Normal of the plane, of any length. The side to which it points is cut away.
+        normal: Option<DVec3> = None, key("RAY-8", NORMAL).absent("none: `box` has planes of its own");
+        /// The box that is kept, in place of a plane: lowest and highest coordinate on each axis.
+        extent: Option<[[f64; 2]; 3]> = None,
+            key("RAY-8", BoxKind).named("box").absent("a plane by `point` and `normal`");
+        /// The space of `point`, `normal` and `box`. In index space the planes of a box follow the axes of the grid.
+        space: ClipSpace = ClipSpace::World, key("RAY-8", ClipSpace::KIND);
+        /// The things that are cut.
+        applies: Vec<PartName> = Vec::new(),
+            key("RAY-8", ListOf { what: "a list of names", most: FEW, each: PartNames }, |c| unless_empty(&c.applies))
+                .absent("everything");
+        /// Colour that a cut shows, unlit. Its own opacity multiplies that of the sample.
+        ///
+        /// Linear, straight.
+        cap: Option<Rgba> = None, key("RAY-8", Colors).absent("the cut's own colour");
+        /// The name of a style that a cut shows, in place of a colour.
+        style: Option<String> = None, key("RAY-8", StyleName).absent("the cut's own colour");
     }
 }
 
@@ -79,29 +71,10 @@ pub(crate) static TABLE: Table<Clip> = Table {
         };
         check.fault_in(missing.0, Problem::Missing { expected: missing.1 });
     },
-    ..Table::new(
+    ..Clip::description(
         "a clip",
         "A plane that cuts part of the volume away, or a box that is kept: two planes on each axis. It cuts the volume, \
          iso-surfaces, halos, points and strokes alike.",
-        Clip::default,
-        keys! { Clip {
-            /// A point on the plane.
-            point: key("RAY-8", POINT).absent("none: `box` has planes of its own");
-            /// Normal of the plane, of any length. The side to which it points is cut away.
-            normal: key("RAY-8", NORMAL).absent("none: `box` has planes of its own");
-            /// The box that is kept, in place of a plane: lowest and highest coordinate on each axis.
-            extent: key("RAY-8", BoxKind).named("box").absent("a plane by `point` and `normal`");
-            /// The space of `point`, `normal` and `box`. In index space the planes of a box follow the axes of the grid.
-            space: key("RAY-8", ClipSpace::KIND);
-            /// The things that are cut.
-            applies: key("RAY-8", ListOf { what: "a list of names", most: FEW, each: PartNames },
-                |c| (!c.applies.is_empty()).then(|| c.applies.clone()),
-                |c, v| c.applies = v).absent("everything");
-            /// Colour that a cut shows, unlit. Its own opacity multiplies that of the sample.
-            cap: key("RAY-8", Colors).absent("the cut's own colour");
-            /// The name of a style that a cut shows, in place of a colour.
-            style: key("RAY-8", StyleName).absent("the cut's own colour");
-        } },
     )
 };
 

@@ -1,23 +1,53 @@
 //! `[contours]`: style contours of controlled thickness ([STF-6] … [STF-8]).
 
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::Table;
 use crate::document::kind::{Bounds, Lengths, Number, Numbers, On, Rule};
 use crate::quantity::Quantity;
 use crate::tables::{Length, Scene};
 use serde::Serialize;
 
-/// The table `[contours]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Contours {
-    /// T.
-    pub thickness: Length,
-    /// κ_v.
-    pub kappa: Kappa,
-    /// The angle of a flipped normal, with `normal = "facing"` ([STF-5]).
-    pub sign_flip: SignFlip,
-    /// lo and hi, of |g|, between which contours fade in; none: no fade ([STF-7]).
-    pub fade: Option<[f64; 2]>,
+table! {
+    /// The table `[contours]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Contours {
+        /// T, the width of a contour.
+        thickness: Length = Length::Voxels(2.0),
+            key("STF-7", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
+        /// The curvature along the view that thickness is controlled by.
+        kappa: Kappa = Kappa::Ray, key("STF-6", KappaName::KIND,
+            |c| {
+                Some(match c.kappa {
+                    Kappa::Ray => KappaName::Ray,
+                    Kappa::Exact => KappaName::Exact,
+                    Kappa::None { .. } => KappaName::None,
+                })
+            },
+            |c, name| {
+                c.kappa = match name {
+                    KappaName::Ray => Kappa::Ray,
+                    KappaName::Exact => Kappa::Exact,
+                    KappaName::None => Kappa::None { threshold: THRESHOLD },
+                }
+            }).needs(&[Quantity::PreviousNormal, Quantity::Hessian]);
+        /// τ of kappa = "none": |N·v| up to which a contour reaches.
+        threshold: key("STF-6", Number { bounds: Bounds::UNIT, unit: "" },
+            |c| match c.kappa {
+                Kappa::None { threshold } => Some(threshold),
+                Kappa::Ray | Kappa::Exact => None,
+            },
+            |c, v| {
+                if let Kappa::None { threshold } = &mut c.kappa {
+                    *threshold = v;
+                }
+            }).absent("0.3 with kappa = \"none\"");
+        /// The angle of a flipped normal, with kappa = "ray" and sampling.normal = "facing".
+        sign_flip: SignFlip = SignFlip::TwoSided, key("STF-5", SignFlip::KIND);
+        /// lo and hi, of |g|, between which contours fade in.
+        fade: Option<[f64; 2]> = None,
+            key("STF-7", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+                .absent("no fade").needs(&[Quantity::GradientMagnitudeRange]);
+    }
 }
 
 /// Which κ_v ([STF-6]).
@@ -43,12 +73,6 @@ choices! {
         TwoSided = "two-sided",
         /// The plain angle.
         Literal = "literal",
-    }
-}
-
-impl Default for Contours {
-    fn default() -> Self {
-        Self { thickness: Length::Voxels(2.0), kappa: Kappa::Ray, sign_flip: SignFlip::TwoSided, fade: None }
     }
 }
 
@@ -87,44 +111,7 @@ pub fn measured_curvature(scene: &Scene) -> Measured {
 }
 
 /// The description of `[contours]`.
-pub(crate) static TABLE: Table<Contours> = Table::new(
+pub(crate) static TABLE: Table<Contours> = Contours::description(
     "[contours]",
     "Style contours of controlled thickness. They act on a transfer function of styles.",
-    Contours::default,
-    keys! { Contours {
-        /// T, the width of a contour.
-        thickness: key("STF-7", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE });
-        /// The curvature along the view that thickness is controlled by.
-        kappa: key("STF-6", KappaName::KIND,
-            |c| {
-                Some(match c.kappa {
-                    Kappa::Ray => KappaName::Ray,
-                    Kappa::Exact => KappaName::Exact,
-                    Kappa::None { .. } => KappaName::None,
-                })
-            },
-            |c, name| {
-                c.kappa = match name {
-                    KappaName::Ray => Kappa::Ray,
-                    KappaName::Exact => Kappa::Exact,
-                    KappaName::None => Kappa::None { threshold: THRESHOLD },
-                }
-            }).needs(&[Quantity::PreviousNormal, Quantity::Hessian]);
-        /// τ of kappa = "none": |N·v| up to which a contour reaches.
-        threshold: key("STF-6", Number { bounds: Bounds::UNIT, unit: "" },
-            |c| match c.kappa {
-                Kappa::None { threshold } => Some(threshold),
-                Kappa::Ray | Kappa::Exact => None,
-            },
-            |c, v| {
-                if let Kappa::None { threshold } = &mut c.kappa {
-                    *threshold = v;
-                }
-            }).absent("0.3 with kappa = \"none\"");
-        /// The angle of a flipped normal, with kappa = "ray" and sampling.normal = "facing".
-        sign_flip: key("STF-5", SignFlip::KIND);
-        /// lo and hi, of |g|, between which contours fade in.
-        fade: key("STF-7", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
-            .absent("no fade").needs(&[Quantity::GradientMagnitudeRange]);
-    } },
 );

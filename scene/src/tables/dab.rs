@@ -1,7 +1,7 @@
 //! `dabs` of an intersection: a Gaussian brush on its function of two values ([VS-4]).
 
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, Numbers, Rule, TableOf};
@@ -9,30 +9,25 @@ use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::{Value as Json, json};
 
-/// A dab of a Gaussian brush on a function of the value at p and the value at T p.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Dab {
-    /// Both values at its centre.
-    pub at: [f64; 2],
-    /// The standard deviations along both values, above 0.
-    pub width: [f64; 2],
-    /// Its linear straight colour, and its opacity at the centre.
-    pub color: [f64; 4],
+table! {
+    /// A dab of a Gaussian brush on a function of the value at p and the value at T p.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    pub struct Dab {
+        /// Its centre: the value of the ghost or the background, and that of the selection.
+        at: [f64; 2] = [0.0; 2], key("VS-4", AT).required();
+        /// Standard deviation of the Gaussian, in units of the values, or one for each value.
+        width: [f64; 2] = [1.0; 2], key("VS-4", Widths).required();
+        /// Its colour. An opacity in the colour is the dab's at its centre.
+        ///
+        /// Linear, straight.
+        color: [f64; 4] = [0.0, 0.0, 0.0, 1.0], key("VS-4", Colors).required();
+    }
 }
 
 /// The description of a dab.
-static DAB: Table<Dab> = Table::new(
+static DAB: Table<Dab> = Dab::description(
     "a dab",
     "A dab of a Gaussian brush: its colour and opacity, over the function about one pair of values.",
-    || Dab { at: [0.0; 2], width: [1.0; 2], color: [0.0, 0.0, 0.0, 1.0] },
-    keys! { Dab {
-        /// Its centre: the value of the ghost or the background, and that of the selection.
-        at: key("VS-4", AT).required();
-        /// Standard deviation of the Gaussian, in units of the values, or one for each value.
-        width: key("VS-4", Widths).required();
-        /// Its colour. An opacity in the colour is the dab's at its centre.
-        color: key("VS-4", Colors).required();
-    } },
 );
 
 /// The kind of `dabs`.

@@ -2,7 +2,7 @@
 
 use super::dab::{DABS, Dab};
 use crate::document::check::Check;
-use crate::document::declare::{choices, table};
+use crate::document::declare::{choices, table, unless_empty};
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Colors, Flag, PathTo, Text};
@@ -28,7 +28,7 @@ table! {
         /// Dabs of a Gaussian brush on the function of both values, in their order. Each lies over the colour and opacity, and
         /// over earlier dabs.
         dabs: Vec<Dab> = Vec::new(),
-            key("VS-4", DABS, |t| (!t.dabs.is_empty()).then(|| t.dabs.clone()), |t, v| t.dabs = v).absent("none");
+            key("VS-4", DABS, |t| unless_empty(&t.dabs)).absent("none");
     }
 }
 

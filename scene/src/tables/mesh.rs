@@ -1,29 +1,45 @@
 //! `[[mesh]]`: opaque meshes beside the volume ([VS-12]).
 
 use super::object::{Factors, Matrix, Motion, ROTATION};
-use crate::color::{Rgba, srgb_to_linear};
-use crate::document::declare::keys;
+use crate::color::{Rgba, opaque};
+use crate::document::declare::table;
 use crate::document::describe::{Instead, Table};
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Colors, Numbers, PathTo, Rule, TableOf};
 use std::path::PathBuf;
 
-/// One table `[[mesh]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MeshTable {
-    /// The file, resolved as the volume's.
-    pub file: PathBuf,
-    /// Linear, opaque.
-    pub color: Rgba,
-    /// The place of the mesh in the world.
-    pub motion: Motion,
-}
-
-impl Default for MeshTable {
-    fn default() -> Self {
-        // CSS silver.
-        let c = srgb_to_linear(192.0 / 255.0);
-        Self { file: PathBuf::new(), color: [c, c, c, 1.0], motion: Motion::NONE }
+table! {
+    /// One table `[[mesh]]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct MeshTable {
+        /// A file of triangles or polygons, PLY, STL or OBJ, in the world units of the volume.
+        ///
+        /// The path is resolved like that of the volume.
+        file: PathBuf = PathBuf::new(), key("VS-12", PathTo { what: "a mesh" }).required();
+        /// The colour of the mesh.
+        ///
+        /// Linear, opaque. The default is CSS silver.
+        color: Rgba = opaque([192.0; 3]), key("VS-12", Colors);
+        /// The place of the mesh in the world.
+        motion: Motion = Motion::NONE;
+        /// The way that the mesh is moved.
+        shift: key("VS-12", WAY,
+            |m| m.motion.matrix.is_none().then(|| m.motion.shift.to_array()),
+            |m, v| m.motion.shift = v.into()).named("move");
+        /// Factor by which the mesh is scaled about `center`, or one for each world axis; negative reflects.
+        scale: key("VS-12", Factors,
+            |m| m.motion.matrix.is_none().then(|| m.motion.scale.to_array()),
+            |m, v| m.motion.scale = v.into());
+        /// Rotation of the mesh about `center`, after it was scaled.
+        rotate: key("VS-12", TableOf(&ROTATION), |m| m.motion.rotation, |m, v| m.motion.rotation = Some(v))
+            .absent("no rotation");
+        /// The point about which the mesh is scaled and rotated.
+        center: key("VS-12", POINT,
+            |m| m.motion.center.map(|c| c.to_array()),
+            |m, v| m.motion.center = Some(v.into())).absent("the centre of the mesh's box");
+        /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
+        matrix: key("VS-12", Matrix, |m| m.motion.matrix, |m, v| m.motion.matrix = Some(v))
+            .absent("`move`, `scale`, `rotate` and `center`");
     }
 }
 
@@ -40,35 +56,10 @@ pub(crate) static TABLE: Table<MeshTable> = Table {
         }
         mesh.motion.check("the mesh", check);
     },
-    ..Table::new(
+    ..MeshTable::description(
         "a mesh",
         "An opaque mesh of triangles: what lies behind it is not seen, and the volume before it covers it. It is lit with \
          the constants of [shading] or their defaults.",
-        MeshTable::default,
-        keys! { MeshTable {
-            /// A file of triangles or polygons, PLY, STL or OBJ, in the world units of the volume.
-            file: key("VS-12", PathTo { what: "a mesh" }).required();
-            /// The colour of the mesh.
-            color: key("VS-12", Colors);
-            /// The way that the mesh is moved.
-            shift: key("VS-12", WAY,
-                |m| m.motion.matrix.is_none().then(|| m.motion.shift.to_array()),
-                |m, v| m.motion.shift = v.into()).named("move");
-            /// Factor by which the mesh is scaled about `center`, or one for each world axis; negative reflects.
-            scale: key("VS-12", Factors,
-                |m| m.motion.matrix.is_none().then(|| m.motion.scale.to_array()),
-                |m, v| m.motion.scale = v.into());
-            /// Rotation of the mesh about `center`, after it was scaled.
-            rotate: key("VS-12", TableOf(&ROTATION), |m| m.motion.rotation, |m, v| m.motion.rotation = Some(v))
-                .absent("no rotation");
-            /// The point about which the mesh is scaled and rotated.
-            center: key("VS-12", POINT,
-                |m| m.motion.center.map(|c| c.to_array()),
-                |m, v| m.motion.center = Some(v.into())).absent("the centre of the mesh's box");
-            /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
-            matrix: key("VS-12", Matrix, |m| m.motion.matrix, |m, v| m.motion.matrix = Some(v))
-                .absent("`move`, `scale`, `rotate` and `center`");
-        } },
     )
 };
 

@@ -4,7 +4,7 @@ use super::LabelKey;
 use super::over::Label;
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, Numbers, Rule, TableOf, Text};
@@ -41,13 +41,16 @@ pub enum NodeColor {
     Color([f64; 3]),
 }
 
-/// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// Place of the row on the axis of the second quantity.
-    pub at: RowAt,
-    /// Nodes over the first quantity, in non-decreasing order of `at`.
-    pub nodes: Vec<Node>,
+table! {
+    /// A row of nodes of a function over two quantities: a function of its own over the first one ([STF-4]).
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Row {
+        /// Place of the row: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
+        /// a list of labels that share the row.
+        at: RowAt = RowAt::Number(0.0), key("STF-4", RowAtKind).required();
+        /// Nodes over the first quantity, in non-decreasing order of `at`.
+        nodes: Vec<Node> = Vec::new(), key("STF-4", LineOfNodes).required();
+    }
 }
 
 /// Place of a row.
@@ -101,22 +104,46 @@ enum At {
     Two([f64; 2]),
 }
 
-/// A node as the scene writes it.
-struct Written {
-    at: At,
-    color: NodeColor,
-    opacity: f64,
+table! {
+    /// A node as the scene writes it.
+    ///
+    /// A colour's opacity multiplies `opacity`, so `color` is read after it.
+    struct Written {
+        /// The value; the two quantities in a grid over two; the first of them in a row.
+        at: At = At::One(0.0), key("STF-3", AtKind).required();
+        /// Style or colour, as in [`Node`].
+        look: NodeColor = NodeColor::Style(String::new());
+        /// The name of a style; in a style function.
+        style: key("STF-3", StyleName,
+            |n| match &n.look {
+                NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
+                NodeColor::Color(_) => None,
+            },
+            |n, v| n.look = NodeColor::Style(v));
+        /// Opacity for a `sampling.reference_length`.
+        opacity: f64 = 1.0, key("VAL-4", Number { bounds: Bounds::UNIT, unit: "" });
+        /// A colour; in a regular function. Its own opacity multiplies `opacity`.
+        color: key("VAL-3", Colors,
+            |n| match n.look {
+                NodeColor::Style(_) => None,
+                NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
+            },
+            |n, [r, g, b, a]| {
+                n.look = NodeColor::Color([r, g, b]);
+                n.opacity *= a;
+            });
+    }
 }
 
 impl Written {
     /// The node in its row.
     fn node(&self) -> Node {
         let (At::One(at) | At::Two([at, _])) = self.at;
-        Node { at, color: self.color.clone(), opacity: self.opacity }
+        Node { at, color: self.look.clone(), opacity: self.opacity }
     }
 }
 
-/// The description of a node. A colour's opacity multiplies `opacity`, so `color` is read after it.
+/// The description of a node.
 static NODE: Table<Written> = Table {
     check: |_, check| match (check.has("style"), check.has("color")) {
         (true, true) => {
@@ -130,34 +157,7 @@ static NODE: Table<Written> = Table {
         }
         (true, false) | (false, true) => {}
     },
-    ..Table::new(
-        "a node",
-        "One node of a transfer function.",
-        || Written { at: At::One(0.0), color: NodeColor::Style(String::new()), opacity: 1.0 },
-        keys! { Written {
-            /// The value; the two quantities in a grid over two; the first of them in a row.
-            at: key("STF-3", AtKind).required();
-            /// The name of a style; in a style function.
-            style: key("STF-3", StyleName,
-                |n| match &n.color {
-                    NodeColor::Style(name) => Some(name.clone()).filter(|name| !name.is_empty()),
-                    NodeColor::Color(_) => None,
-                },
-                |n, v| n.color = NodeColor::Style(v));
-            /// Opacity for a `sampling.reference_length`.
-            opacity: key("VAL-4", Number { bounds: Bounds::UNIT, unit: "" });
-            /// A colour; in a regular function. Its own opacity multiplies `opacity`.
-            color: key("VAL-3", Colors,
-                |n| match n.color {
-                    NodeColor::Style(_) => None,
-                    NodeColor::Color([r, g, b]) => Some([r, g, b, 1.0]),
-                },
-                |n, [r, g, b, a]| {
-                    n.color = NodeColor::Color([r, g, b]);
-                    n.opacity *= a;
-                });
-        } },
-    )
+    ..Written::description("a node", "One node of a transfer function.")
 };
 
 /// Place of a node: a number, or a pair of them.
@@ -284,7 +284,7 @@ impl Kind for Nodes {
     }
 
     fn write(&self, value: &NodeList) -> Out {
-        let written = |node: &Node, at: At| Written { at, color: node.color.clone(), opacity: node.opacity };
+        let written = |node: &Node, at: At| Written { at, look: node.color.clone(), opacity: node.opacity };
         let nodes: Vec<Written> = match value {
             NodeList::Line(nodes) => nodes.iter().map(|node| written(node, At::One(node.at))).collect(),
             NodeList::Grid(rows) => {
@@ -367,18 +367,7 @@ fn missing(full: &[f64], row: &[f64]) -> Option<f64> {
 }
 
 /// The description of a row.
-static ROW: Table<Row> = Table::new(
-    "a row",
-    "One row of nodes of a function over two quantities.",
-    || Row { at: RowAt::Number(0.0), nodes: Vec::new() },
-    keys! { Row {
-        /// Place of the row: a number of the second quantity; for labels an id, a name of `volume.label_names`, or
-        /// a list of labels that share the row.
-        at: key("STF-4", RowAtKind).required();
-        /// Nodes over the first quantity, in non-decreasing order of `at`.
-        nodes: key("STF-4", LineOfNodes).required();
-    } },
-);
+static ROW: Table<Row> = Row::description("a row", "One row of nodes of a function over two quantities.");
 
 /// Place of a row: a number, a name, or several labels.
 struct RowAtKind;
@@ -466,7 +455,7 @@ mod tests {
     fn grid(at: &[[f64; 2]]) -> Result<Vec<(RowAt, Vec<f64>)>, [f64; 2]> {
         let style = NodeColor::Style("wax".into());
         let nodes: Vec<Written> =
-            at.iter().map(|&at| Written { at: At::Two(at), color: style.clone(), opacity: 1.0 }).collect();
+            at.iter().map(|&at| Written { at: At::Two(at), look: style.clone(), opacity: 1.0 }).collect();
         Ok(rows(&nodes)?.into_iter().map(|row| (row.at, row.nodes.iter().map(|n| n.at).collect())).collect())
     }
 

@@ -5,7 +5,7 @@
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Key, Kind, Section, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, ListOf, Numbers, PathTo, Rule, TableOf, Text, Whole};
@@ -89,13 +89,39 @@ static NAMED: [Named; 8] = [
     Named::new("kv", Axis::AlongView, "the curvature along the view"),
 ];
 
+table! {
+    /// A quantity that has more than a name: one of these keys.
+    struct AxisOf {
+        /// The distance to this point, in world units.
+        distance: Option<DVec3> = None,
+            key("STF-4", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free })
+                .absent("another quantity").needs(&[Quantity::Distance]);
+        /// The distance to the nearest voxel centre of this label, in world units; 0 inside.
+        distance_to_label: Option<LabelKey> = None,
+            key("STF-4", Label).absent("another quantity").needs(&[Quantity::LabelDistance]);
+        /// The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box
+        /// and beside voxels without a value it counts as the lowest of its values.
+        volume: Option<PathBuf> = None,
+            key("STF-4", PathTo { what: "a volume" }).absent("another quantity").needs(&[Quantity::FurtherVolume]);
+    }
+}
+
+impl AxisOf {
+    /// The quantity; of several keys the last one counts, none gives none.
+    fn axis(self) -> Option<Axis> {
+        let distance = || self.distance.map(Axis::Distance);
+        let label = || self.distance_to_label.map(Axis::DistanceToLabel);
+        self.volume.map(Axis::Volume).or_else(label).or_else(distance)
+    }
+}
+
 /// The description of the quantities of something: one key of it.
-static OF: Table<Option<Axis>> = Table {
+static OF: Table<AxisOf> = Table {
     check: |_, check| {
         let given: Vec<&str> = OF.keys.iter().map(|key| key.name).filter(|name| check.has(name)).collect();
         match given[..] {
             [] => {
-                let key = |key: &Key<Option<Axis>>| format!("{} = {}", key.name, key.field.shape().expected());
+                let key = |key: &Key<AxisOf>| format!("{} = {}", key.name, key.field.shape().expected());
                 let expected = OF.keys.iter().map(key).collect::<Vec<_>>().join(", or ");
                 check.fault_in(OF.keys[0].name, Problem::Missing { expected });
             }
@@ -106,37 +132,9 @@ static OF: Table<Option<Axis>> = Table {
             }
         }
     },
-    ..Table::new(
+    ..AxisOf::description(
         "a quantity of something",
         "A quantity of a transfer function that has more than a name: one of these keys.",
-        || None,
-        keys! { Option<Axis> {
-            /// The distance to this point, in world units.
-            distance: key("STF-4", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free },
-                |axis| match axis {
-                    Some(Axis::Distance(p)) => Some(p.to_array()),
-                    _ => None,
-                },
-                |axis, p| *axis = Some(Axis::Distance(p.into())))
-                .absent("another quantity").needs(&[Quantity::Distance]);
-            /// The distance to the nearest voxel centre of this label, in world units; 0 inside.
-            distance_to_label: key("STF-4", Label,
-                |axis| match axis {
-                    Some(Axis::DistanceToLabel(label)) => Some(label.clone()),
-                    _ => None,
-                },
-                |axis, label| *axis = Some(Axis::DistanceToLabel(label)))
-                .absent("another quantity").needs(&[Quantity::LabelDistance]);
-            /// The value of this volume at the same place in the world, trilinear, whatever its grid. Outside its box
-            /// and beside voxels without a value it counts as the lowest of its values.
-            volume: key("STF-4", PathTo { what: "a volume" },
-                |axis| match axis {
-                    Some(Axis::Volume(path)) => Some(path.clone()),
-                    _ => None,
-                },
-                |axis, path| *axis = Some(Axis::Volume(path)))
-                .absent("another quantity").needs(&[Quantity::FurtherVolume]);
-        } },
     )
 };
 
@@ -288,7 +286,7 @@ impl Kind for AxisKind {
 
     fn read(&self, item: &Item, check: &mut Check) -> Option<Axis> {
         if let Value::Table(_) = item.value {
-            return check.table(&OF, item).flatten();
+            return check.table(&OF, item)?.axis();
         }
         let Some(name) = item.text() else { return check.wrong(item, self.expected()) };
         let known = NAMED.iter().find(|named| named.name == name);
@@ -297,10 +295,13 @@ impl Kind for AxisKind {
     }
 
     fn write(&self, value: &Axis) -> Out {
-        match NAMED.iter().find(|named| named.axis == *value) {
-            Some(named) => Out::Text(named.name.into()),
-            None => TableOf(&OF).write(&Some(value.clone())),
-        }
+        let of = match value.clone() {
+            Axis::Distance(point) => AxisOf { distance: Some(point), ..AxisOf::default() },
+            Axis::DistanceToLabel(label) => AxisOf { distance_to_label: Some(label), ..AxisOf::default() },
+            Axis::Volume(path) => AxisOf { volume: Some(path), ..AxisOf::default() },
+            named => return Out::Text(named.name().into()),
+        };
+        TableOf(&OF).write(&of)
     }
 }
 

@@ -1,7 +1,7 @@
 //! `[picture]`: what the picture is drawn on.
 
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::{Item, Value};
@@ -17,28 +17,44 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
-/// The table `[picture]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PictureSettings {
-    /// Width and height in pixels.
-    pub size: [usize; 2],
-    /// Width and height as lengths on the page, where the scene gives them so; [`Self::extent`] says whether they still
-    /// hold.
-    pub lengths: [Option<Length>; 2],
-    /// Pixels per inch, which turns mm into px.
-    pub dpi: f64,
-    /// Rays of each pixel.
-    pub samples: RaysPerPixel,
-    /// Largest difference between neighbours that `samples = "auto"` leaves at one ray a pixel ([RAY-7]).
-    pub contrast: f64,
-    /// Background of the picture.
-    pub background: Background,
-    /// Light that is composited ([VAL-3]).
-    pub blend_space: BlendSpace,
-    /// Bits a channel of a PNG: 8 or 16.
-    pub bits: u8,
-    /// Layers of an EXR ([IO-6]).
-    pub layers: Vec<LayerKind>,
+table! {
+    /// The table `[picture]`.
+    ///
+    /// `dpi` is read before the lengths that it turns into pixels.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct PictureSettings {
+        /// Pixels per inch, which turns mm into pixels.
+        dpi: f64 = 300.0, key("IO-7", Number { bounds: Bounds::POSITIVE, unit: "" });
+        /// Width and height in pixels.
+        size: [usize; 2] = [512, 512], key("RAY-6", SIZE, |p| p.extent().is_none().then_some(p.size));
+        /// Width and height as lengths on the page, where the scene gives them so; [`Self::extent`] says whether they
+        /// still hold.
+        lengths: [Option<Length>; 2] = [None; 2];
+        /// Width on the page, with `height` in place of `size`.
+        width: key("IO-7", EXTENT,
+            |p| p.extent().map(|[length, _]| length),
+            |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+        /// Height on the page, with `width` in place of `size`.
+        height: key("IO-7", EXTENT,
+            |p| p.extent().map(|[_, length]| length),
+            |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
+        /// Rays a pixel: n×n, or "auto", one and 3×3 at edges. With halos, style mip-maps or strokes inside the volume "auto" is 2×2 everywhere.
+        samples: RaysPerPixel = RaysPerPixel::Auto, key("RAY-6", RaysPerPixelKind);
+        /// Edges of samples = "auto": places where neighbours differ by more in R, G, B as displayed, or in opacity.
+        contrast: f64 = 0.0625, key("RAY-7", Number { bounds: Bounds::UNIT, unit: "" });
+        /// Background: a colour, "none", or the path of a picture that is stretched to the frame.
+        background: Background = Background::Color([1.0; 4]), key("IO-6", Behind);
+        /// Encoding of the numbers that are composited.
+        blend_space: BlendSpace = BlendSpace::Linear, key("VAL-3", BlendSpace::KIND);
+        /// Bits a channel of a PNG.
+        ///
+        /// 8 or 16.
+        bits: u8 = 8, key("IO-2", Bits);
+        /// Layers of an EXR.
+        layers: Vec<LayerKind> = vec![LayerKind::Beauty],
+            key("IO-6", ListOf { what: "a list of layers", most: FEW, each: LayerName })
+                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
+    }
 }
 
 /// Rays of each pixel.
@@ -81,22 +97,6 @@ choices! {
         Linear = "linear",
         /// sRGB-encoded values, to remake old figures.
         Srgb = "srgb",
-    }
-}
-
-impl Default for PictureSettings {
-    fn default() -> Self {
-        Self {
-            size: [512, 512],
-            lengths: [None; 2],
-            dpi: 300.0,
-            samples: RaysPerPixel::Auto,
-            contrast: 0.0625,
-            background: Background::Color([1.0; 4]),
-            blend_space: BlendSpace::Linear,
-            bits: 8,
-            layers: vec![LayerKind::Beauty],
-        }
     }
 }
 
@@ -143,7 +143,7 @@ fn pixels(length: Length, dpi: f64) -> usize {
     }
 }
 
-/// The description of `[picture]`. `dpi` is read before the lengths that it turns into pixels.
+/// The description of `[picture]`.
 pub(crate) static TABLE: Table<PictureSettings> = Table {
     instead: &[Instead { one: "size", others: &["width", "height"] }],
     check: |picture, check| {
@@ -168,38 +168,7 @@ pub(crate) static TABLE: Table<PictureSettings> = Table {
         }
         check_layers(&picture.layers, check);
     },
-    ..Table::new(
-        "[picture]",
-        "What the picture is drawn on.",
-        PictureSettings::default,
-        keys! { PictureSettings {
-            /// Pixels per inch, which turns mm into pixels.
-            dpi: key("IO-7", Number { bounds: Bounds::POSITIVE, unit: "" });
-            /// Width and height in pixels.
-            size: key("RAY-6", SIZE, |p| p.extent().is_none().then_some(p.size), |p, v| p.size = v);
-            /// Width on the page, with `height` in place of `size`.
-            width: key("IO-7", EXTENT,
-                |p| p.extent().map(|[length, _]| length),
-                |p, v| (p.lengths[0], p.size[0]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
-            /// Height on the page, with `width` in place of `size`.
-            height: key("IO-7", EXTENT,
-                |p| p.extent().map(|[_, length]| length),
-                |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
-            /// Rays a pixel: n×n, or "auto", one and 3×3 at edges. With halos, style mip-maps or strokes inside the volume "auto" is 2×2 everywhere.
-            samples: key("RAY-6", RaysPerPixelKind);
-            /// Edges of samples = "auto": places where neighbours differ by more in R, G, B as displayed, or in opacity.
-            contrast: key("RAY-7", Number { bounds: Bounds::UNIT, unit: "" });
-            /// Background: a colour, "none", or the path of a picture that is stretched to the frame.
-            background: key("IO-6", Behind);
-            /// Encoding of the numbers that are composited.
-            blend_space: key("VAL-3", BlendSpace::KIND);
-            /// Bits a channel of a PNG.
-            bits: key("IO-2", Bits);
-            /// Layers of an EXR.
-            layers: key("IO-6", ListOf { what: "a list of layers", most: FEW, each: LayerName })
-                .needs(&[Quantity::Gradient, Quantity::PreviousNormal, Quantity::Hessian]);
-        } },
-    )
+    ..PictureSettings::description("[picture]", "What the picture is drawn on.")
 };
 
 /// Layers by name.

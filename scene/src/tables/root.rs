@@ -2,19 +2,17 @@
 
 use super::preset::PRESETS;
 use super::{
-    Halo, ObjectTable, Scene, VolumeSource, camera, clip, combine, contours, halo, hatching, intersection, mesh,
-    object, orbit, outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer,
-    volume,
+    Halo, ObjectTable, Scene, camera, clip, combine, contours, halo, hatching, intersection, mesh, object, orbit,
+    outlines, page, pen, picture, sampling, shading, stipples, style_mipmaps, styles, surface, transfer, volume,
 };
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::{keys, unless_empty};
 use crate::document::describe::{Kind, Later, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{FEW, ListOf, TableOf};
 use crate::document::out::Out;
 use crate::quantity::Quantity;
 use serde_json::{Value as Json, json};
-use std::path::PathBuf;
 
 /// The version of the format.
 const VERSION: i64 = 1;
@@ -68,7 +66,7 @@ pub(crate) static ROOT: Table<Scene> = Table {
         "A scene file is TOML. A table is an effect: what has no table does not exist for the picture and is not \
          computed. Lengths are numbers in world units or texts with a unit, angles are in degrees, colours sRGB, and \
          paths relative to the scene file.",
-        || Scene::without_effects(VolumeSource::File { path: PathBuf::new(), raw: None }),
+        Scene::default,
         keys! { Scene {
             /// Version of the format.
             drypoint: key("", Version, |_| Some(()), |_, ()| {}).required();
@@ -83,9 +81,8 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// The data that is seen.
             volume: key("IO-1", TableOf(&volume::TABLE)).absent("the scene is a template, for any volume");
             /// Planes that cut parts of the volume away.
-            clip: key("RAY-8", ListOf { what: "a list of clips", most: FEW, each: TableOf(&clip::TABLE) },
-                |s| (!s.clips.is_empty()).then(|| s.clips.clone()),
-                |s, v| s.clips = v).absent("none");
+            clips: key("RAY-8", ListOf { what: "a list of clips", most: FEW, each: TableOf(&clip::TABLE) },
+                |s| unless_empty(&s.clips)).named("clip").absent("none");
             /// The view of the volume.
             camera: key("RAY-5", TableOf(&camera::TABLE));
             /// Several frames about the volume.
@@ -95,9 +92,8 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// The paper that points and lines are drawn on.
             page: key("IO-7", TableOf(&page::TABLE)).absent("no margin, no plotter");
             /// The pens that points and lines are drawn with; layers are numbered in their order.
-            pen: key("IO-7", ListOf { what: "a list of pens", most: FEW, each: TableOf(&pen::TABLE) },
-                |s| (!s.pens.is_empty()).then(|| s.pens.clone()),
-                |s, v| s.pens = v).absent("none");
+            pens: key("IO-7", ListOf { what: "a list of pens", most: FEW, each: TableOf(&pen::TABLE) },
+                |s| unless_empty(&s.pens)).named("pen").absent("none");
             /// How the field is reconstructed and where it is sampled.
             sampling: key("RAY-1", TableOf(&sampling::TABLE));
             /// Colours or styles, and opacities, over the values.
@@ -112,20 +108,19 @@ pub(crate) static ROOT: Table<Scene> = Table {
             style_mipmaps: key("STF-10", TableOf(&style_mipmaps::TABLE)).absent("no mip-maps");
             /// Volumetric halos; of emissive ones the first lies in front, of occlusive ones the first is mixed last.
             halo: key("HALO-1", ListOf { what: "a list of halos", most: FEW, each: TableOf(&halo::TABLE) },
-                |s| (!s.halos.is_empty()).then(|| s.halos.clone()),
+                |s| unless_empty(&s.halos),
                 |s, v| s.halos = v.into_iter().enumerate().map(|(i, halo): (usize, Halo)| halo.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
             /// Operators by which objects are combined.
             combine: key("VS-3", TableOf(&combine::TABLE)).absent("\"zadeh\", with objects");
             /// Objects: selections with a look of their own, which can be moved and cut free.
             object: key("VS-2", ListOf { what: "a list of objects", most: FEW, each: TableOf(&object::TABLE) },
-                |s| (!s.objects.is_empty()).then(|| s.objects.clone()),
+                |s| unless_empty(&s.objects),
                 |s, v| s.objects = v.into_iter().enumerate().map(|(i, o): (usize, ObjectTable)| o.named(i)).collect())
                 .absent("none").needs(&Quantity::ALL);
             /// The look of places where a selection meets its ghost or the background.
-            intersection: key("VS-4", ListOf { what: "a list of intersections", most: FEW, each: TableOf(&intersection::TABLE) },
-                |s| (!s.intersections.is_empty()).then(|| s.intersections.clone()),
-                |s, v| s.intersections = v).absent("none");
+            intersections: key("VS-4", ListOf { what: "a list of intersections", most: FEW, each: TableOf(&intersection::TABLE) },
+                |s| unless_empty(&s.intersections)).named("intersection").absent("none");
             /// Stippling: dots on the volume's boundaries.
             stipples: key("STIP-1", TableOf(&stipples::TABLE)).absent("no stipples");
             /// Strokes along the lines of curvature of an iso-surface.
@@ -135,9 +130,8 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// An opaque iso-surface.
             surface: key("HATCH-14", TableOf(&surface::TABLE)).absent("no surface").needs(&[Quantity::Surface]);
             /// Opaque meshes, which cut the volume and are cut by it.
-            mesh: key("VS-12", ListOf { what: "a list of meshes", most: FEW, each: TableOf(&mesh::TABLE) },
-                |s| (!s.meshes.is_empty()).then(|| s.meshes.clone()),
-                |s, v| s.meshes = v).absent("none").needs(&[Quantity::Mesh]);
+            meshes: key("VS-12", ListOf { what: "a list of meshes", most: FEW, each: TableOf(&mesh::TABLE) },
+                |s| unless_empty(&s.meshes)).named("mesh").absent("none").needs(&[Quantity::Mesh]);
         } },
     )
 };

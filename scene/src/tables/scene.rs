@@ -9,8 +9,8 @@ use crate::document::Given;
 use std::path::{Path, PathBuf};
 
 /// Everything that a picture is made of, with every default filled in. A table that is absent here is an effect that
-/// does not exist ([SCN-1]).
-#[derive(Clone, Debug, PartialEq)]
+/// does not exist ([SCN-1]). The default is a template: it names no volume and has no effect.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// Towards the light, for all that is lit and says nothing else.
     pub light: LightDirection,
@@ -65,7 +65,8 @@ pub struct Scene {
 impl Scene {
     /// The shortest scene: a volume, every default, and the preset `style`.
     pub fn for_volume(source: VolumeSource) -> Self {
-        Self { transfer: Some(Transfer::automatic(TransferKind::Style)), ..Self::without_effects(source) }
+        let transfer = Some(Transfer::automatic(TransferKind::Style));
+        Self { volume: VolumeTable::new(source), transfer, ..Self::default() }
     }
 
     /// The files that the scene names, and the folder of its theme, as paths to open.
@@ -104,35 +105,5 @@ impl Scene {
         self.transfer.is_some()
             || !self.meshes.is_empty()
             || self.surface.as_ref().is_some_and(|surface| surface.look != SurfaceLook::None)
-    }
-
-    /// A volume, every default, and no effect.
-    pub(super) fn without_effects(source: VolumeSource) -> Self {
-        Self {
-            light: LightDirection::Head,
-            volume: VolumeTable::new(source),
-            clips: Vec::new(),
-            camera: Camera::default(),
-            orbit: None,
-            picture: PictureSettings::default(),
-            page: None,
-            pens: Vec::new(),
-            sampling: Sampling::default(),
-            transfer: None,
-            styles: Styles::default(),
-            shading: None,
-            contours: None,
-            style_mipmaps: None,
-            halos: Vec::new(),
-            combine: None,
-            objects: Vec::new(),
-            intersections: Vec::new(),
-            stipples: None,
-            hatching: None,
-            outlines: None,
-            surface: None,
-            meshes: Vec::new(),
-            given: Given::default(),
-        }
     }
 }

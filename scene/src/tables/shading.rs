@@ -2,7 +2,7 @@
 //! ([VS-5]).
 
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys, table};
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::{Item, Value};
@@ -74,10 +74,11 @@ choices! {
 }
 
 /// Towards the light.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightDirection {
     /// Eye space (0, 0, 1) at every sample.
+    #[default]
     Head,
     /// Eye space, any length.
     Eye(DVec3),
@@ -138,16 +139,16 @@ pub(crate) struct Light;
 /// A direction of any length.
 const DIRECTION: Numbers<3> = Numbers { what: "a direction [x, y, z]", bounds: Bounds::ANY, rule: Rule::Direction };
 
-/// The description of `{ world = [x, y, z] }`.
-static WORLD: Table<[f64; 3]> = Table::new(
-    "light",
-    "A light that stands in the world.",
-    || [0.0, 0.0, 1.0],
-    keys! { [f64; 3] {
+table! {
+    /// `{ world = [x, y, z] }`.
+    struct WorldLight {
         /// Towards the light, in world space.
-        world: key("STF-11", DIRECTION, |v| Some(*v), |v, new| *v = new).required();
-    } },
-);
+        world: DVec3 = DVec3::Z, key("STF-11", DIRECTION).required();
+    }
+}
+
+/// The description of `{ world = [x, y, z] }`.
+static WORLD: Table<WorldLight> = WorldLight::description("light", "A light that stands in the world.");
 
 impl Shape for Light {
     fn expected(&self) -> String {
@@ -165,7 +166,7 @@ impl Kind for Light {
     fn read(&self, item: &Item, check: &mut Check) -> Option<LightDirection> {
         match &item.value {
             Value::Text(text) if text == "head" => Some(LightDirection::Head),
-            Value::Table(_) => check.table(&WORLD, item).map(|v| LightDirection::World(DVec3::from_array(v))),
+            Value::Table(_) => check.table(&WORLD, item).map(|light| LightDirection::World(light.world)),
             _ => match DIRECTION.of(item) {
                 Some(v) => Some(LightDirection::Eye(DVec3::from_array(v))),
                 None => check.wrong(item, self.expected()),

@@ -1,7 +1,7 @@
 //! `[styles]`: the lit-sphere pictures that a transfer function names.
 
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{FEW, Flag, PathTo, TableOf};
@@ -9,13 +9,15 @@ use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
-/// The table `[styles]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Styles {
-    /// An embedded theme by name, or a folder of pictures.
-    pub theme: StyleSource,
-    /// Single styles, which go over the theme's.
-    pub files: Vec<(String, StyleFile)>,
+table! {
+    /// The table `[styles]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Styles {
+        /// An embedded theme, or a folder of pictures named after their styles.
+        theme: StyleSource = StyleSource::Embedded("textbook".into()), key("STF-12", Theme);
+        /// Single styles, which go over the theme's.
+        files: Vec<(String, StyleFile)> = Vec::new();
+    }
 }
 
 /// Source of a theme.
@@ -27,18 +29,14 @@ pub enum StyleSource {
     Folder(PathBuf),
 }
 
-/// A style's picture on disk.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StyleFile {
-    /// Path to open.
-    pub path: PathBuf,
-    /// Whether the colours are linear, not sRGB ([VAL-3]).
-    pub linear: bool,
-}
-
-impl Default for Styles {
-    fn default() -> Self {
-        Self { theme: StyleSource::Embedded("textbook".into()), files: Vec::new() }
+table! {
+    /// A style's picture on disk.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct StyleFile {
+        /// A square picture of a lit sphere.
+        path: PathBuf = PathBuf::new(), key("STF-1", FILE).named("file").required();
+        /// Whether the colours are linear, not sRGB.
+        linear: bool = false, key("VAL-3", Flag);
     }
 }
 
@@ -66,15 +64,10 @@ pub(crate) static TABLE: Table<Styles> = Table {
         list: |styles: &Styles| styles.files.clone(),
         add: |styles, name, file| styles.files.push((name, file)),
     }),
-    ..Table::new(
+    ..Styles::description(
         "[styles]",
         "The lit-sphere pictures that a transfer function names: a theme first, single files over it. Exchanging the \
          theme changes no other line.",
-        Styles::default,
-        keys! { Styles {
-            /// An embedded theme, or a folder of pictures named after their styles.
-            theme: key("STF-12", Theme);
-        } },
     )
 };
 
@@ -120,17 +113,7 @@ struct Picture;
 const FILE: PathTo = PathTo { what: "a square picture" };
 
 /// The description of `{ file = "…", linear = true }`.
-static FILE_TABLE: Table<StyleFile> = Table::new(
-    "a style",
-    "A picture whose colours may be linear.",
-    || StyleFile { path: PathBuf::new(), linear: false },
-    keys! { StyleFile {
-        /// A square picture of a lit sphere.
-        file: key("STF-1", FILE, |s| Some(s.path.clone()), |s, v| s.path = v).required();
-        /// Whether the colours are linear, not sRGB.
-        linear: key("VAL-3", Flag);
-    } },
-);
+static FILE_TABLE: Table<StyleFile> = StyleFile::description("a style", "A picture whose colours may be linear.");
 
 impl Shape for Picture {
     fn expected(&self) -> String {

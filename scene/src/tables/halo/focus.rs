@@ -1,21 +1,38 @@
 //! `seed.focus` of a halo: seeds near a point or a polyline ([HALO-2]).
 
 use crate::document::Problem;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Instead, Table};
 use crate::document::kind::{Bounds, Lengths, ListOf, MANY, Numbers, On, Rule};
 use crate::tables::Length;
 use glam::DVec3;
 
-/// The table `seed.focus`: h_p = clamp₀₁(1 − (dist − inner)/falloff).
-#[derive(Clone, Debug, PartialEq)]
-pub struct HaloFocus {
-    /// The point, or the vertices of the polyline.
-    pub points: FocusPoints,
-    /// The distance up to which h_p = 1.
-    pub inner: Length,
-    /// The length over which it falls to 0.
-    pub falloff: Length,
+table! {
+    /// The table `seed.focus`: h_p = clamp₀₁(1 − (dist − inner)/falloff). The default has no points yet.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct HaloFocus {
+        /// The point, or the vertices of the polyline.
+        points: FocusPoints = FocusPoints::World(Vec::new());
+        /// A point, or the vertices of a polyline, in world space.
+        at: key("HALO-2", POINTS,
+            |f| match &f.points {
+                FocusPoints::World(points) if !points.is_empty() => {
+                    Some(points.iter().map(|p| p.to_array()).collect())
+                }
+                _ => None,
+            },
+            |f, v| f.points = FocusPoints::World(v.into_iter().map(DVec3::from_array).collect()))
+            .absent("`pixels`");
+        /// Pixels of the picture in place of `at`: column and row from the upper left corner, from 0. A whole number is
+        /// the centre of a pixel. Each is the first visible place on its ray, as `drypoint pick` tells it.
+        pixels: key("HALO-12", PIXELS,
+            |f| f.pixels().map(<[_]>::to_vec),
+            |f, v| f.points = FocusPoints::Pixels(v)).absent("`at`");
+        /// The distance up to which the factor is 1.
+        inner: Length = Length::World(0.0), key("HALO-2", DISTANCE);
+        /// The length over which it falls to 0; 0 is a step.
+        falloff: Length = Length::Voxels(20.0), key("HALO-2", DISTANCE);
+    }
 }
 
 /// The points of a focus; at least one.
@@ -69,35 +86,9 @@ pub(super) static TABLE: Table<HaloFocus> = Table {
             check.fault_in("at", Problem::Missing { expected });
         }
     },
-    ..Table::new(
+    ..HaloFocus::description(
         "seed.focus of a halo",
         "Seeds near a point or a polyline: the factor is 1 up to the distance `inner` from it and falls to 0 over \
          `falloff`.",
-        || HaloFocus {
-            points: FocusPoints::World(Vec::new()),
-            inner: Length::World(0.0),
-            falloff: Length::Voxels(20.0),
-        },
-        keys! { HaloFocus {
-            /// A point, or the vertices of a polyline, in world space.
-            at: key("HALO-2", POINTS,
-                |f| match &f.points {
-                    FocusPoints::World(points) if !points.is_empty() => {
-                        Some(points.iter().map(|p| p.to_array()).collect())
-                    }
-                    _ => None,
-                },
-                |f, v| f.points = FocusPoints::World(v.into_iter().map(DVec3::from_array).collect()))
-                .absent("`pixels`");
-            /// Pixels of the picture in place of `at`: column and row from the upper left corner, from 0. A whole number is
-            /// the centre of a pixel. Each is the first visible place on its ray, as `drypoint pick` tells it.
-            pixels: key("HALO-12", PIXELS,
-                |f| f.pixels().map(<[_]>::to_vec),
-                |f, v| f.points = FocusPoints::Pixels(v)).absent("`at`");
-            /// The distance up to which the factor is 1.
-            inner: key("HALO-2", DISTANCE);
-            /// The length over which it falls to 0; 0 is a step.
-            falloff: key("HALO-2", DISTANCE);
-        } },
     )
 };

@@ -2,7 +2,7 @@
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::table;
 use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, TableOf};
@@ -10,31 +10,19 @@ use crate::document::out::Out;
 use serde::Serialize;
 use serde_json::Value as Json;
 
-/// A node of a halo's profile.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct ProfileNode {
-    /// The intensity H, in [0, 1].
-    pub at: f64,
-    /// Linear straight colour.
-    pub rgb: [f64; 3],
-    /// Opacity: per reference length if emissive, else a weight of mixing.
-    pub opacity: f64,
-}
-
-/// A number from 0 to 1.
-const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
-
-/// The description of a node. A colour's opacity multiplies `opacity`, so `color` is read after it.
-static NODE: Table<ProfileNode> = Table::new(
-    "a node of a profile",
-    "Colour and opacity of a halo at one intensity.",
-    || ProfileNode { at: 0.0, rgb: [0.0; 3], opacity: 1.0 },
-    keys! { ProfileNode {
+table! {
+    /// A node of a halo's profile.
+    ///
+    /// A colour's opacity multiplies `opacity`, so `color` is read after it.
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    pub struct ProfileNode {
         /// The intensity, from 0 to 1.
-        at: key("HALO-6", UNIT).required();
+        at: f64 = 0.0, key("HALO-6", UNIT).required();
+        /// Linear straight colour.
+        rgb: [f64; 3] = [0.0; 3];
         /// Opacity: of an emissive halo for a `sampling.reference_length`, of an occlusive one the share of the halo's
         /// colour in what it tints.
-        opacity: key("HALO-6", UNIT);
+        opacity: f64 = 1.0, key("HALO-6", UNIT);
         /// The colour. Its own opacity multiplies `opacity`.
         color: key("VAL-3", Colors,
             |n| { let [r, g, b] = n.rgb; Some([r, g, b, 1.0]) },
@@ -42,8 +30,15 @@ static NODE: Table<ProfileNode> = Table::new(
                 n.rgb = [r, g, b];
                 n.opacity *= a;
             }).required();
-    } },
-);
+    }
+}
+
+/// A number from 0 to 1.
+const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
+
+/// The description of a node.
+static NODE: Table<ProfileNode> =
+    ProfileNode::description("a node of a profile", "Colour and opacity of a halo at one intensity.");
 
 /// Nodes in non-decreasing order of `at`.
 pub(super) struct Profile;

@@ -3,7 +3,7 @@
 use super::profile::Profile;
 use super::{ProfileNode, Seeding, Spreading, seed, spread};
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table, unless_empty};
 use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, FEW, ListOf, Number, Numbers, Rule, TableOf, Text, Whole};
@@ -12,33 +12,50 @@ use crate::quantity::Quantity;
 use crate::tables::object::{PartName, PartNames};
 use serde_json::{Value as Json, json};
 
-/// One table `[[halo]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Halo {
-    /// Name by which occlusive halos call an emissive one.
-    pub name: String,
-    /// The way it enters the picture.
-    pub kind: HaloKind,
-    /// Which samples seed it, and how strong ones.
-    pub seed: Seeding,
-    /// a of |g|^a and b of (1 − |n·v|)^b.
-    pub exponents: Exponents,
-    /// The part whose samples seed it; none: all parts.
-    pub object: Option<PartName>,
-    /// From seeds to intensities.
-    pub spread: Spreading,
-    /// Colour and opacity over the intensity, in non-decreasing order of `at`; at least one node.
-    pub profile: Vec<ProfileNode>,
-    /// The factor of the profile's opacities, in [0, 1].
-    pub opacity: f64,
-    /// Seeds and intensities below it are 0.
-    pub floor: f64,
-    /// M: the planes of a group.
-    pub every: u64,
-    /// How the seeds of a group's planes come together.
-    pub accumulate: HaloAccumulation,
-    /// The names of the emissive halos that an occlusive one tints.
-    pub tints: Vec<String>,
+table! {
+    /// One table `[[halo]]`. The default is a dark rim before what lies behind; it has no name yet.
+    ///
+    /// `kind` is read before `accumulate`, whose default it decides.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Halo {
+        /// Name by which `tints` calls a halo.
+        name: String = String::new(), key("HALO-1", Text { what: "the name of a halo" },
+            |h| (!h.name.is_empty()).then(|| h.name.clone())).absent("\"halo N\", N its place in the list, from 0");
+        /// The way it enters the picture.
+        kind: HaloKind = HaloKind::Occlusive, key("HALO-7", HaloKind::KIND,
+            |h| Some(h.kind),
+            |h, v| (h.kind, h.accumulate) = (v, v.accumulation()));
+        /// Which samples seed it, and how strong ones.
+        seed: Seeding = Seeding::default(), key("HALO-2", TableOf(&seed::TABLE));
+        /// a and b of |g|^a · (1 − |n·v|)^b: how much a seed depends on the strength of a boundary, and how much on the
+        /// angle that it is seen at.
+        exponents: Exponents = Exponents::Contour,
+            key("HALO-3", ExponentsKind).needs(&[Quantity::GradientMagnitudeRange]);
+        /// The part whose samples seed it: "background", the name of an object, or "NAME ghost".
+        object: Option<PartName> = None, key("VS-2", PartNames).absent("all parts");
+        /// From the seeds of a plane to the halo's intensities on it.
+        spread: Spreading = Spreading::default(), key("HALO-5", TableOf(&spread::TABLE));
+        /// Colours and opacities over the intensity, in non-decreasing order of `at`, linear between them and constant
+        /// beyond both ends. Intensity 0 is always transparent.
+        ///
+        /// At least one node.
+        profile: Vec<ProfileNode> = vec![
+            ProfileNode { at: 0.2, rgb: [0.0; 3], opacity: 0.0 },
+            ProfileNode { at: 0.6, rgb: [0.0; 3], opacity: 0.8 },
+        ], key("HALO-6", Profile);
+        /// Factor of the profile's opacities.
+        opacity: f64 = 1.0, key("HALO-6", UNIT);
+        /// Seeds and intensities below it are 0.
+        floor: f64 = 1.0 / 255.0, key("HALO-6", UNIT);
+        /// M, the planes of a group: its seeds are spread once. 1 is the truth, more are faster.
+        every: u64 = 1, key("HALO-8", Whole { lo: 1, hi: 1024 });
+        /// How the seeds of a group's planes come together; of emissive halos the default is "mean".
+        accumulate: HaloAccumulation = HaloKind::Occlusive.accumulation(), key("HALO-8", HaloAccumulation::KIND);
+        /// Names of emissive halos that this occlusive one tints.
+        tints: Vec<String> = Vec::new(),
+            key("HALO-7", ListOf { what: "a list of names", most: FEW, each: Text { what: "the name of a halo" } },
+                |h| unless_empty(&h.tints)).absent("none");
+    }
 }
 
 choices! {
@@ -95,27 +112,6 @@ impl HaloKind {
     }
 }
 
-impl Default for Halo {
-    /// A dark rim before what lies behind; it has no name yet.
-    fn default() -> Self {
-        let node = |at, opacity| ProfileNode { at, rgb: [0.0; 3], opacity };
-        Self {
-            name: String::new(),
-            kind: HaloKind::Occlusive,
-            seed: Seeding::default(),
-            exponents: Exponents::Contour,
-            object: None,
-            spread: Spreading::default(),
-            profile: vec![node(0.2, 0.0), node(0.6, 0.8)],
-            opacity: 1.0,
-            floor: 1.0 / 255.0,
-            every: 1,
-            accumulate: HaloKind::Occlusive.accumulation(),
-            tints: Vec::new(),
-        }
-    }
-}
-
 impl Halo {
     /// Whether samples of a part seed it.
     pub(crate) fn takes(&self, part: &PartName) -> bool {
@@ -131,48 +127,11 @@ impl Halo {
 /// A number from 0 to 1.
 const UNIT: Number = Number { bounds: Bounds::UNIT, unit: "" };
 
-/// The description of a halo. `kind` is read before `accumulate`, whose default it decides.
-pub(crate) static TABLE: Table<Halo> = Table {
-    ..Table::new(
-        "a halo",
-        "A volumetric halo: a fog around the sides of things, or a tint of what lies behind them.",
-        Halo::default,
-        keys! { Halo {
-            /// Name by which `tints` calls a halo.
-            name: key("HALO-1", Text { what: "the name of a halo" },
-                |h| (!h.name.is_empty()).then(|| h.name.clone()),
-                |h, v| h.name = v).absent("\"halo N\", N its place in the list, from 0");
-            /// The way it enters the picture.
-            kind: key("HALO-7", HaloKind::KIND,
-                |h| Some(h.kind),
-                |h, v| (h.kind, h.accumulate) = (v, v.accumulation()));
-            /// Which samples seed it, and how strong ones.
-            seed: key("HALO-2", TableOf(&seed::TABLE));
-            /// a and b of |g|^a · (1 − |n·v|)^b: how much a seed depends on the strength of a boundary, and how much on the
-            /// angle that it is seen at.
-            exponents: key("HALO-3", ExponentsKind).needs(&[Quantity::GradientMagnitudeRange]);
-            /// The part whose samples seed it: "background", the name of an object, or "NAME ghost".
-            object: key("VS-2", PartNames).absent("all parts");
-            /// From the seeds of a plane to the halo's intensities on it.
-            spread: key("HALO-5", TableOf(&spread::TABLE));
-            /// Colours and opacities over the intensity, in non-decreasing order of `at`, linear between them and constant
-            /// beyond both ends. Intensity 0 is always transparent.
-            profile: key("HALO-6", Profile);
-            /// Factor of the profile's opacities.
-            opacity: key("HALO-6", UNIT);
-            /// Seeds and intensities below it are 0.
-            floor: key("HALO-6", UNIT);
-            /// M, the planes of a group: its seeds are spread once. 1 is the truth, more are faster.
-            every: key("HALO-8", Whole { lo: 1, hi: 1024 });
-            /// How the seeds of a group's planes come together; of emissive halos the default is "mean".
-            accumulate: key("HALO-8", HaloAccumulation::KIND);
-            /// Names of emissive halos that this occlusive one tints.
-            tints: key("HALO-7", ListOf { what: "a list of names", most: FEW, each: Text { what: "the name of a halo" } },
-                |h| (!h.tints.is_empty()).then(|| h.tints.clone()),
-                |h, v| h.tints = v).absent("none");
-        } },
-    )
-};
+/// The description of a halo.
+pub(crate) static TABLE: Table<Halo> = Halo::description(
+    "a halo",
+    "A volumetric halo: a fog around the sides of things, or a tint of what lies behind them.",
+);
 
 /// `"contour"`, `"printed"`, or two numbers.
 struct ExponentsKind;

@@ -2,7 +2,7 @@
 
 use crate::document::Problem;
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Lengths, ListOf, MANY, Number, Numbers, On, Rule, TableOf};
@@ -11,21 +11,58 @@ use crate::tables::Length;
 use glam::DVec3;
 use serde_json::{Value as Json, json};
 
-/// One stroke.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PaintStroke {
-    /// The part of the volume that is painted.
-    pub target: PaintTarget,
-    /// The change of the memberships there.
-    pub mode: PaintMode,
-    /// The radius of a brush.
-    pub radius: Length,
-    /// The shape of a brush.
-    pub brush: Brush,
-    /// The largest difference of a value of a grown region from that of its seed.
-    pub tolerance: f64,
-    /// The neighbours of a voxel in a grown region.
-    pub connect: Connectivity,
+table! {
+    /// One stroke. The default does not say yet what is painted.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct PaintStroke {
+        /// The part of the volume that is painted.
+        target: PaintTarget = UNSAID;
+        /// The pixel at which the volume is painted, column and row from the upper left corner, from 0. A whole number is
+        /// the centre of a pixel. The brush is at the first visible structure, as `drypoint pick` tells it.
+        pixel: key("VS-6", Numbers { what: "a pixel [x, y]", bounds: Bounds::NOT_NEGATIVE, rule: Rule::Free },
+            |s| match s.target {
+                PaintTarget::Pixel(pixel) => Some(pixel),
+                _ => None,
+            },
+            |s, v| s.target = PaintTarget::Pixel(v)).absent("one of `at`, `grow` and `watershed`");
+        /// A point of the world, about which the volume is painted.
+        at: key("VS-6", POINT,
+            |s| match s.target {
+                PaintTarget::At(p) if !s.is_unsaid() => Some(p.to_array()),
+                _ => None,
+            },
+            |s, v| s.target = PaintTarget::At(DVec3::from_array(v))).absent("one of `pixel`, `grow` and `watershed`");
+        /// A point of the world from which a region grows, over neighbours whose values differ from the point's by at most
+        /// `tolerance`.
+        grow: key("VS-6", POINT,
+            |s| match s.target {
+                PaintTarget::Grow(p) => Some(p.to_array()),
+                _ => None,
+            },
+            |s, v| s.target = PaintTarget::Grow(DVec3::from_array(v)))
+            .absent("one of `pixel`, `at` and `watershed`");
+        /// A point of the world from which the volume is flooded, over the gradient magnitude. Strokes of this kind that
+        /// stand one after the other flood together, each up to the others; each paints its own basin by its own mode.
+        watershed: key("VS-6", POINT,
+            |s| match s.target {
+                PaintTarget::Watershed(p) => Some(p.to_array()),
+                _ => None,
+            },
+            |s, v| s.target = PaintTarget::Watershed(DVec3::from_array(v)))
+            .absent("one of `pixel`, `at` and `grow`");
+        /// The change of the selection.
+        mode: PaintMode = PaintMode::Add, key("VS-6", PaintMode::KIND);
+        /// Radius of the brush. With 0 it is one voxel.
+        radius: Length = Length::Voxels(5.0), key("VS-6", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
+            |s| s.has_brush().then_some(s.radius));
+        /// Shape of the brush.
+        brush: Brush = Brush::Gaussian, key("VS-6", Brush::KIND, |s| s.has_brush().then_some(s.brush));
+        /// The largest difference of a value of a grown region from the seed's.
+        tolerance: f64 = 0.0, key("VS-6", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" },
+            |s| s.grows().then_some(s.tolerance));
+        /// The neighbours of a voxel in a grown region: 6 share a face, 18 a face or an edge, 26 also a corner.
+        connect: Connectivity = Connectivity::Faces, key("VS-6", Neighbours, |s| s.grows().then_some(s.connect));
+    }
 }
 
 /// The target of a stroke of which no key has said it yet.
@@ -161,65 +198,10 @@ static STROKE: Table<PaintStroke> = Table {
             check.fault_in("pixel", Problem::Missing { expected });
         }
     },
-    ..Table::new(
+    ..PaintStroke::description(
         "a stroke",
         "One stroke of a brush, one grown region or one basin of a watershed. Voxels that the transfer function does not \
          show are not painted.",
-        || PaintStroke {
-            target: UNSAID,
-            mode: PaintMode::Add,
-            radius: Length::Voxels(5.0),
-            brush: Brush::Gaussian,
-            tolerance: 0.0,
-            connect: Connectivity::Faces,
-        },
-        keys! { PaintStroke {
-            /// The pixel at which the volume is painted, column and row from the upper left corner, from 0. A whole number is
-            /// the centre of a pixel. The brush is at the first visible structure, as `drypoint pick` tells it.
-            pixel: key("VS-6", Numbers { what: "a pixel [x, y]", bounds: Bounds::NOT_NEGATIVE, rule: Rule::Free },
-                |s| match s.target {
-                    PaintTarget::Pixel(pixel) => Some(pixel),
-                    _ => None,
-                },
-                |s, v| s.target = PaintTarget::Pixel(v)).absent("one of `at`, `grow` and `watershed`");
-            /// A point of the world, about which the volume is painted.
-            at: key("VS-6", POINT,
-                |s| match s.target {
-                    PaintTarget::At(p) if !s.is_unsaid() => Some(p.to_array()),
-                    _ => None,
-                },
-                |s, v| s.target = PaintTarget::At(DVec3::from_array(v))).absent("one of `pixel`, `grow` and `watershed`");
-            /// A point of the world from which a region grows, over neighbours whose values differ from the point's by at most
-            /// `tolerance`.
-            grow: key("VS-6", POINT,
-                |s| match s.target {
-                    PaintTarget::Grow(p) => Some(p.to_array()),
-                    _ => None,
-                },
-                |s, v| s.target = PaintTarget::Grow(DVec3::from_array(v)))
-                .absent("one of `pixel`, `at` and `watershed`");
-            /// A point of the world from which the volume is flooded, over the gradient magnitude. Strokes of this kind that
-            /// stand one after the other flood together, each up to the others; each paints its own basin by its own mode.
-            watershed: key("VS-6", POINT,
-                |s| match s.target {
-                    PaintTarget::Watershed(p) => Some(p.to_array()),
-                    _ => None,
-                },
-                |s, v| s.target = PaintTarget::Watershed(DVec3::from_array(v)))
-                .absent("one of `pixel`, `at` and `grow`");
-            /// The change of the selection.
-            mode: key("VS-6", PaintMode::KIND);
-            /// Radius of the brush. With 0 it is one voxel.
-            radius: key("VS-6", Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE },
-                |s| s.has_brush().then_some(s.radius), |s, v| s.radius = v);
-            /// Shape of the brush.
-            brush: key("VS-6", Brush::KIND, |s| s.has_brush().then_some(s.brush), |s, v| s.brush = v);
-            /// The largest difference of a value of a grown region from the seed's.
-            tolerance: key("VS-6", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" },
-                |s| s.grows().then_some(s.tolerance), |s, v| s.tolerance = v);
-            /// The neighbours of a voxel in a grown region: 6 share a face, 18 a face or an edge, 26 also a corner.
-            connect: key("VS-6", Neighbours, |s| s.grows().then_some(s.connect), |s, v| s.connect = v);
-        } },
     )
 };
 

@@ -4,7 +4,7 @@ use super::motion::{Factors, Matrix, ROTATION};
 use super::strokes::STROKES;
 use super::{GhostTable, Motion, PaintStroke, ghost};
 use crate::document::check::Check;
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
@@ -18,53 +18,86 @@ use crate::tables::{GradientRange, LabelKey, Length, Outside, Shading, Styles, T
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
-/// One table `[[object]]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ObjectTable {
-    /// Name by which other tables call it.
-    pub name: String,
-    /// The file of its own data; none: the data of `[volume]`.
-    pub volume: Option<PathBuf>,
-    /// The file of the label volume beside its own data.
-    pub labels: Option<PathBuf>,
-    /// The table of the names of these labels.
-    pub label_names: Option<PathBuf>,
-    /// The value range of its own data ([VAL-1]); none: the data's own.
-    pub range: Option<[f64; 2]>,
-    /// The range of ‖g‖ of its own data that |g| maps to [0, 1] ([VAL-2]).
-    pub gradient_range: GradientRange,
-    /// Which values of its own data lie outside a surface ([NORM-1]).
-    pub outside: Outside,
-    /// The file of a selection volume.
-    pub selection: Option<PathBuf>,
-    /// Labels that are selected.
-    pub label: Option<Vec<LabelKey>>,
-    /// Pairs of a value and its membership, in non-decreasing order of the value.
-    pub value: Option<Vec<[f64; 2]>>,
-    /// Strokes that paint the selection, in their order; none: another key says what is selected.
-    pub strokes: Option<Vec<PaintStroke>>,
-    /// M.
-    pub motion: Motion,
-    /// γ of the background before the selection, in [0, 1].
-    pub ghosting: f64,
-    /// γ of the background before the ghost, in [0, 1].
-    pub ghosting_of_ghost: f64,
-    /// The depth up to which the background is cut.
-    pub cut: Cut,
-    /// σ of the smooth cutaway, on the page; none: a hard cut.
-    pub funnel: Option<Length>,
-    /// Whether it is the one that a person works on.
-    pub active: bool,
-    /// Whether a viewer highlights it.
-    pub highlight: bool,
-    /// Its own colours or styles, and opacities; none: the picture's.
-    pub transfer: Option<Transfer>,
-    /// Its own styles, over the picture's; none: the picture's.
-    pub styles: Option<Styles>,
-    /// Its own light; none: the picture's.
-    pub shading: Option<Shading>,
-    /// The look of its ghost; none: its own.
-    pub ghost: Option<GhostTable>,
+table! {
+    /// One table `[[object]]`.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct ObjectTable {
+        /// Name by which other tables call it.
+        name: String = String::new(), key("VS-2", Text { what: "the name of an object" },
+            |o| (!o.name.is_empty()).then(|| o.name.clone())).absent("\"object N\", N its place in the list, from 0");
+        /// Data of its own, on a grid of its own: nothing is resampled. Such an object takes nothing from the background.
+        volume: Option<PathBuf> = None, key("VS-2", PathTo { what: "a volume" }).absent("the data of [volume]");
+        /// The label volume beside its own data.
+        labels: Option<PathBuf> = None, key("VS-2", PathTo { what: "a label volume" }).absent("no labels");
+        /// The names of these labels: a CSV file with an id and a name on each line.
+        label_names: Option<PathBuf> = None,
+            key("VS-2", PathTo { what: "a table of names" }).absent("labels have no names");
+        /// The values of its own data that `unit = "normalized"` maps to 0 and 1.
+        range: Option<[f64; 2]> = None, key("VAL-1", RANGE).absent("the data's own");
+        /// The gradient of its own data that |g| = 1 stands for.
+        gradient_range: GradientRange = GradientRange::Quantile(0.999), key("VAL-2", Quantile,
+            |o| o.volume.is_some().then_some(o.gradient_range)).absent("\"q0.999\"");
+        /// Which values of its own data lie outside a surface.
+        outside: Outside = Outside::Low, key("NORM-1", Outside::KIND,
+            |o| o.volume.is_some().then_some(o.outside)).absent("\"low\"");
+        /// A selection volume with memberships from 0 to 1, on a grid of its own. Outside its box nothing is selected.
+        selection: Option<PathBuf> = None,
+            key("VS-2", PathTo { what: "a selection volume" }).absent("`label`, `value`, or all of the data");
+        /// The label that is selected, by id or by name, or a list of them.
+        label: Option<Vec<LabelKey>> = None, key("VS-2", Labels).absent("`selection`, `value`, or all of the data");
+        /// Membership over the value: pairs [value, membership], linear between them and constant beyond both ends.
+        ///
+        /// In non-decreasing order of the value.
+        value: Option<Vec<[f64; 2]>> = None, key("VS-2", UnitPairs).absent("`selection`, `label`, or all of the data");
+        /// Strokes of brushes, grown regions and watershed basins that paint the selection onto the data, in their order.
+        strokes: Option<Vec<PaintStroke>> = None,
+            key("VS-6", STROKES).absent("`selection`, `label`, `value`, or all of the data");
+        /// M.
+        motion: Motion = Motion::NONE;
+        /// The way that the selection is moved.
+        shift: key("VS-2", WAY,
+            |o| o.motion.matrix.is_none().then(|| o.motion.shift.to_array()),
+            |o, v| o.motion.shift = v.into()).named("move");
+        /// Factor by which the selection is scaled about `center`, or one for each world axis; negative reflects.
+        scale: key("VS-2", Factors,
+            |o| o.motion.matrix.is_none().then(|| o.motion.scale.to_array()),
+            |o, v| o.motion.scale = v.into());
+        /// Rotation of the selection about `center`, after it was scaled.
+        rotate: key("VS-2", TableOf(&ROTATION), |o| o.motion.rotation, |o, v| o.motion.rotation = Some(v))
+            .absent("no rotation");
+        /// The point about which the selection is scaled and rotated.
+        center: key("VS-2", POINT,
+            |o| o.motion.center.map(|c| c.to_array()),
+            |o, v| o.motion.center = Some(v.into())).absent("the centre of the selection's box");
+        /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
+        matrix: key("VS-2", Matrix, |o| o.motion.matrix, |o, v| o.motion.matrix = Some(v))
+            .absent("`move`, `scale`, `rotate` and `center`");
+        /// γ: how far the background before the selection fades, 1 all of it. Contours of strong boundaries fade last.
+        ghosting: f64 = 0.0, key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
+        /// γ before the ghost.
+        ghosting_of_ghost: f64 = 0.0, key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
+        /// The depth up to which the background is cut.
+        cut: Cut = Cut::Bounds, key("VS-7", Cut::KIND);
+        /// σ of the Gaussian that turns the cut into a funnel.
+        ///
+        /// On the page.
+        funnel: Option<Length> = None,
+            key("VS-7", Lengths { on: On::Picture, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
+        /// Whether it is the object that a person works on. No pixel depends on it.
+        active: bool = false, key("VS-2", Flag);
+        /// Whether a viewer highlights it. No pixel depends on it.
+        highlight: bool = false, key("VS-2", Flag);
+        /// Its own colours or styles, and opacities.
+        transfer: Option<Transfer> = None,
+            key("VS-2", TableOf(&transfer::TABLE)).absent("the picture's").needs(&[Quantity::Value]);
+        /// The lit-sphere pictures that its function names, over those of the picture.
+        styles: Option<Styles> = None, key("VS-2", TableOf(&styles::TABLE)).absent("the picture's");
+        /// Its own light on a regular function.
+        shading: Option<Shading> = None,
+            key("VS-2", TableOf(&shading::TABLE)).absent("the picture's").needs(&[Quantity::Gradient]);
+        /// The look of its ghost.
+        ghost: Option<GhostTable> = None, key("VS-2", TableOf(&ghost::TABLE)).absent("the object's");
+    }
 }
 
 choices! {
@@ -75,35 +108,6 @@ choices! {
         Bounds = "bounds",
         /// The last sample that belongs to the object.
         Object = "object",
-    }
-}
-
-impl Default for ObjectTable {
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            volume: None,
-            labels: None,
-            label_names: None,
-            range: None,
-            gradient_range: GradientRange::Quantile(0.999),
-            outside: Outside::Low,
-            selection: None,
-            label: None,
-            value: None,
-            strokes: None,
-            motion: Motion::NONE,
-            ghosting: 0.0,
-            ghosting_of_ghost: 0.0,
-            cut: Cut::Bounds,
-            funnel: None,
-            active: false,
-            highlight: false,
-            transfer: None,
-            styles: None,
-            shading: None,
-            ghost: None,
-        }
     }
 }
 
@@ -150,79 +154,10 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
         }
         object.motion.check("the object", check);
     },
-    ..Table::new(
+    ..ObjectTable::description(
         "an object",
         "A selection of the data with a look of its own. Moved, it leaves a ghost at its original place; the rest is the \
          background, which can be cut away before the object.",
-        ObjectTable::default,
-        keys! { ObjectTable {
-            /// Name by which other tables call it.
-            name: key("VS-2", Text { what: "the name of an object" },
-                |o| (!o.name.is_empty()).then(|| o.name.clone()),
-                |o, v| o.name = v).absent("\"object N\", N its place in the list, from 0");
-            /// Data of its own, on a grid of its own: nothing is resampled. Such an object takes nothing from the background.
-            volume: key("VS-2", PathTo { what: "a volume" }).absent("the data of [volume]");
-            /// The label volume beside its own data.
-            labels: key("VS-2", PathTo { what: "a label volume" }).absent("no labels");
-            /// The names of these labels: a CSV file with an id and a name on each line.
-            label_names: key("VS-2", PathTo { what: "a table of names" }).absent("labels have no names");
-            /// The values of its own data that `unit = "normalized"` maps to 0 and 1.
-            range: key("VAL-1", RANGE).absent("the data's own");
-            /// The gradient of its own data that |g| = 1 stands for.
-            gradient_range: key("VAL-2", Quantile,
-                |o| o.volume.is_some().then_some(o.gradient_range),
-                |o, v| o.gradient_range = v).absent("\"q0.999\"");
-            /// Which values of its own data lie outside a surface.
-            outside: key("NORM-1", Outside::KIND,
-                |o| o.volume.is_some().then_some(o.outside),
-                |o, v| o.outside = v).absent("\"low\"");
-            /// A selection volume with memberships from 0 to 1, on a grid of its own. Outside its box nothing is selected.
-            selection: key("VS-2", PathTo { what: "a selection volume" }).absent("`label`, `value`, or all of the data");
-            /// The label that is selected, by id or by name, or a list of them.
-            label: key("VS-2", Labels).absent("`selection`, `value`, or all of the data");
-            /// Membership over the value: pairs [value, membership], linear between them and constant beyond both ends.
-            value: key("VS-2", UnitPairs).absent("`selection`, `label`, or all of the data");
-            /// Strokes of brushes, grown regions and watershed basins that paint the selection onto the data, in their order.
-            strokes: key("VS-6", STROKES).absent("`selection`, `label`, `value`, or all of the data");
-            /// The way that the selection is moved.
-            shift: key("VS-2", WAY,
-                |o| o.motion.matrix.is_none().then(|| o.motion.shift.to_array()),
-                |o, v| o.motion.shift = v.into()).named("move");
-            /// Factor by which the selection is scaled about `center`, or one for each world axis; negative reflects.
-            scale: key("VS-2", Factors,
-                |o| o.motion.matrix.is_none().then(|| o.motion.scale.to_array()),
-                |o, v| o.motion.scale = v.into());
-            /// Rotation of the selection about `center`, after it was scaled.
-            rotate: key("VS-2", TableOf(&ROTATION), |o| o.motion.rotation, |o, v| o.motion.rotation = Some(v))
-                .absent("no rotation");
-            /// The point about which the selection is scaled and rotated.
-            center: key("VS-2", POINT,
-                |o| o.motion.center.map(|c| c.to_array()),
-                |o, v| o.motion.center = Some(v.into())).absent("the centre of the selection's box");
-            /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
-            matrix: key("VS-2", Matrix, |o| o.motion.matrix, |o, v| o.motion.matrix = Some(v))
-                .absent("`move`, `scale`, `rotate` and `center`");
-            /// γ: how far the background before the selection fades, 1 all of it. Contours of strong boundaries fade last.
-            ghosting: key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
-            /// γ before the ghost.
-            ghosting_of_ghost: key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
-            /// The depth up to which the background is cut.
-            cut: key("VS-7", Cut::KIND);
-            /// σ of the Gaussian that turns the cut into a funnel.
-            funnel: key("VS-7", Lengths { on: On::Picture, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
-            /// Whether it is the object that a person works on. No pixel depends on it.
-            active: key("VS-2", Flag);
-            /// Whether a viewer highlights it. No pixel depends on it.
-            highlight: key("VS-2", Flag);
-            /// Its own colours or styles, and opacities.
-            transfer: key("VS-2", TableOf(&transfer::TABLE)).absent("the picture's").needs(&[Quantity::Value]);
-            /// The lit-sphere pictures that its function names, over those of the picture.
-            styles: key("VS-2", TableOf(&styles::TABLE)).absent("the picture's");
-            /// Its own light on a regular function.
-            shading: key("VS-2", TableOf(&shading::TABLE)).absent("the picture's").needs(&[Quantity::Gradient]);
-            /// The look of its ghost.
-            ghost: key("VS-2", TableOf(&ghost::TABLE)).absent("the object's");
-        } },
     )
 };
 

@@ -13,7 +13,7 @@ pub use parts::{Keep, PartsTable};
 pub use phantom::PhantomSource;
 pub use raw::RawLayout;
 
-use crate::document::declare::{choices, keys};
+use crate::document::declare::{choices, table};
 use crate::document::describe::{Instead, Table};
 use crate::document::fault::Problem;
 use crate::document::kind::{Bounds, Numbers, PathTo, Rule, TableOf};
@@ -25,29 +25,69 @@ use raw::RAW;
 use std::path::PathBuf;
 use subset::{IndexBox, Strides};
 
-/// The table `[volume]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct VolumeTable {
-    /// Source of the voxels.
-    pub source: VolumeSource,
-    /// Meaning of the values.
-    pub ids: Ids,
-    /// The file of the label volume beside the data, resolved as the volume's ([STF-13]).
-    pub labels: Option<PathBuf>,
-    /// The table of its labels' names.
-    pub label_names: Option<PathBuf>,
-    /// Which label lies between voxels.
-    pub label_lookup: LabelLookup,
-    /// The value range of `normalized` ([VAL-1]); none: the volume's own.
-    pub range: Option<[f64; 2]>,
-    /// The range of ‖g‖ that |g| maps to [0, 1] ([VAL-2]).
-    pub gradient_range: GradientRange,
-    /// Which values lie outside a surface ([NORM-1]).
-    pub outside: Outside,
-    /// The voxels that are read ([VOL-1]).
-    pub subset: Subset,
-    /// The connected parts that are kept ([VOL-2]); none: everything.
-    pub parts: Option<PartsTable>,
+table! {
+    /// The table `[volume]`. The default names no volume: it is that of a template.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct VolumeTable {
+        /// Source of the voxels.
+        source: VolumeSource = VolumeSource::File { path: PathBuf::new(), raw: None };
+        /// A volume file: NRRD, NIfTI, MetaImage or raw voxels.
+        file: key("IO-1", PathTo { what: "a volume" },
+            |t| match &t.source {
+                VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
+                VolumeSource::Phantom(_) => None,
+            },
+            |t, path| t.source = VolumeSource::File { path, raw: None }).absent("`phantom` in its place");
+        /// A volume with known truth, made by the program.
+        phantom: key("IO-4", TableOf(&PHANTOM),
+            |t| match &t.source {
+                VolumeSource::File { .. } => None,
+                VolumeSource::Phantom(phantom) => Some(phantom.clone()),
+            },
+            |t, phantom| t.source = VolumeSource::Phantom(phantom)).absent("`file` in its place");
+        /// Layout of a file without a header. FILE.toml beside it may hold the same.
+        raw: key("IO-1", TableOf(&RAW),
+            |t| match &t.source {
+                VolumeSource::File { raw, .. } => raw.clone(),
+                VolumeSource::Phantom(_) => None,
+            },
+            |t, layout| {
+                if let VolumeSource::File { raw, .. } = &mut t.source {
+                    *raw = Some(layout);
+                }
+            }).absent("the file's header, or FILE.toml beside it");
+        /// Meaning of the values: quantities, or the ids of parts that are shown as one.
+        ids: Ids = Ids::Values, key("STF-13", Ids::KIND);
+        /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
+        /// another grid; outside its box the label is 0.
+        ///
+        /// The path is resolved like that of the volume.
+        labels: Option<PathBuf> = None, key("STF-13", PathTo { what: "a label volume" }).absent("no labels");
+        /// The names of the labels: a CSV file with an id and a name on each line.
+        label_names: Option<PathBuf> = None,
+            key("STF-13", PathTo { what: "a table of names" }).absent("labels have no names");
+        /// Which label lies between voxels.
+        label_lookup: LabelLookup = LabelLookup::Nearest, key("STF-13", LabelLookup::KIND).needs(&[Quantity::Label]);
+        /// The values that `unit = "normalized"` maps to 0 and 1.
+        range: Option<[f64; 2]> = None,
+            key("VAL-1", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
+                .absent("the volume's own");
+        /// The gradient that |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
+        /// unit.
+        gradient_range: GradientRange = GradientRange::Quantile(0.999), key("VAL-2", Quantile);
+        /// Which values lie outside a surface.
+        outside: Outside = Outside::Low, key("NORM-1", Outside::KIND);
+        /// The voxels that are read.
+        subset: Subset = Subset::default();
+        /// The voxels to read: first and last index along x, y, z, from 0 and both included. The picture is that of a file
+        /// with just these voxels, each at its place in the world.
+        box_ranges: key("VOL-1", IndexBox, |t| t.subset.ranges, |t, v| t.subset.ranges = Some(v))
+            .named("box").absent("the whole volume");
+        /// Steps between the voxels to read: one for all axes, or three for x, y, z. 2 reads every second voxel.
+        stride: key("VOL-1", Strides, |t| Some(t.subset.stride), |t, v| t.subset.stride = v);
+        /// Connected parts that are kept.
+        parts: Option<PartsTable> = None, key("VOL-2", TableOf(&parts::TABLE)).absent("everything is kept");
+    }
 }
 
 /// Source of the voxels.
@@ -100,18 +140,7 @@ choices! {
 impl VolumeTable {
     /// The table with every default, for a source.
     pub fn new(source: VolumeSource) -> Self {
-        Self {
-            source,
-            ids: Ids::Values,
-            labels: None,
-            label_names: None,
-            label_lookup: LabelLookup::Nearest,
-            range: None,
-            gradient_range: GradientRange::Quantile(0.999),
-            outside: Outside::Low,
-            subset: Subset::default(),
-            parts: None,
-        }
+        Self { source, ..Self::default() }
     }
 }
 
@@ -134,62 +163,9 @@ pub(crate) static TABLE: Table<VolumeTable> = Table {
             check.fault_in("file", no_volume());
         }
     },
-    ..Table::new(
+    ..VolumeTable::description(
         "[volume]",
         "The data that is seen: a file, or a phantom of our own. A file that is not there is looked for in the folders \
          that DRYPOINT_DATA lists.",
-        || VolumeTable::new(VolumeSource::File { path: PathBuf::new(), raw: None }),
-        keys! { VolumeTable {
-            /// A volume file: NRRD, NIfTI, MetaImage or raw voxels.
-            file: key("IO-1", PathTo { what: "a volume" },
-                |t| match &t.source {
-                    VolumeSource::File { path, .. } => Some(path.clone()).filter(|path| path.as_os_str() != ""),
-                    VolumeSource::Phantom(_) => None,
-                },
-                |t, path| t.source = VolumeSource::File { path, raw: None }).absent("`phantom` in its place");
-            /// A volume with known truth, made by the program.
-            phantom: key("IO-4", TableOf(&PHANTOM),
-                |t| match &t.source {
-                    VolumeSource::File { .. } => None,
-                    VolumeSource::Phantom(phantom) => Some(phantom.clone()),
-                },
-                |t, phantom| t.source = VolumeSource::Phantom(phantom)).absent("`file` in its place");
-            /// Layout of a file without a header. FILE.toml beside it may hold the same.
-            raw: key("IO-1", TableOf(&RAW),
-                |t| match &t.source {
-                    VolumeSource::File { raw, .. } => raw.clone(),
-                    VolumeSource::Phantom(_) => None,
-                },
-                |t, layout| {
-                    if let VolumeSource::File { raw, .. } = &mut t.source {
-                        *raw = Some(layout);
-                    }
-                }).absent("the file's header, or FILE.toml beside it");
-            /// Meaning of the values: quantities, or the ids of parts that are shown as one.
-            ids: key("STF-13", Ids::KIND);
-            /// A label volume beside the data: which part each voxel belongs to, as whole numbers from 0. It may lie on
-            /// another grid; outside its box the label is 0.
-            labels: key("STF-13", PathTo { what: "a label volume" }).absent("no labels");
-            /// The names of the labels: a CSV file with an id and a name on each line.
-            label_names: key("STF-13", PathTo { what: "a table of names" }).absent("labels have no names");
-            /// Which label lies between voxels.
-            label_lookup: key("STF-13", LabelLookup::KIND).needs(&[Quantity::Label]);
-            /// The values that `unit = "normalized"` maps to 0 and 1.
-            range: key("VAL-1", Numbers { what: "a range [lo, hi]", bounds: Bounds::ANY, rule: Rule::Ascending })
-                .absent("the volume's own");
-            /// The gradient that |g| = 1 stands for: a quantile of ‖g‖ over the voxels with a normal, or [lo, hi] in value per world
-            /// unit.
-            gradient_range: key("VAL-2", Quantile);
-            /// Which values lie outside a surface.
-            outside: key("NORM-1", Outside::KIND);
-            /// The voxels to read: first and last index along x, y, z, from 0 and both included. The picture is that of a file
-            /// with just these voxels, each at its place in the world.
-            box_ranges: key("VOL-1", IndexBox, |t| t.subset.ranges, |t, v| t.subset.ranges = Some(v))
-                .named("box").absent("the whole volume");
-            /// Steps between the voxels to read: one for all axes, or three for x, y, z. 2 reads every second voxel.
-            stride: key("VOL-1", Strides, |t| Some(t.subset.stride), |t, v| t.subset.stride = v);
-            /// Connected parts that are kept.
-            parts: key("VOL-2", TableOf(&parts::TABLE)).absent("everything is kept");
-        } },
     )
 };

@@ -1,7 +1,7 @@
 //! `[volume.parts]`: the connected parts of a volume that are kept ([VOL-2]).
 
 use crate::document::check::Check;
-use crate::document::declare::{keys, table};
+use crate::document::declare::table;
 use crate::document::describe::{Instead, Kind, Shape, Table};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Number, Numbers, Rule, TableOf, Whole};
@@ -37,28 +37,24 @@ const COUNT: Whole = Whole { lo: 1, hi: i64::MAX as u64 };
 /// `"largest"`, a number, `{ share = 0.01 }` or `{ at = [x, y, z] }`.
 struct Kept;
 
-/// A share or a point.
-#[derive(Clone, Copy, Default)]
-struct Chosen {
-    share: Option<f64>,
-    at: Option<DVec3>,
+table! {
+    /// A share or a point.
+    #[derive(Clone, Copy)]
+    struct Chosen {
+        /// The least number of a part's voxels, as a share of the largest part's.
+        share: Option<f64> = None,
+            key("VOL-2", Number { bounds: Bounds::UNIT, unit: "" }).absent("`at` in its place");
+        /// A point of the world in the part to keep, such as `drypoint pick` tells.
+        at: Option<DVec3> = None,
+            key("VOL-2", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free })
+                .absent("`share` in its place");
+    }
 }
 
 /// The description of `keep = { … }`.
 static CHOSEN: Table<Chosen> = Table {
     instead: &[Instead { one: "at", others: &["share"] }],
-    ..Table::new(
-        "keep",
-        "Parts by their share of the largest one, or by a point.",
-        Chosen::default,
-        keys! { Chosen {
-            /// The least number of a part's voxels, as a share of the largest part's.
-            share: key("VOL-2", Number { bounds: Bounds::UNIT, unit: "" }).absent("`at` in its place");
-            /// A point of the world in the part to keep, such as `drypoint pick` tells.
-            at: key("VOL-2", Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free })
-                .absent("`share` in its place");
-        } },
-    )
+    ..Chosen::description("keep", "Parts by their share of the largest one, or by a point.")
 };
 
 impl Shape for Kept {

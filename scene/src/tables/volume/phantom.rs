@@ -2,7 +2,7 @@
 
 use super::layout::{LONGEST_AXIS, SPACING, VOXEL_TYPE};
 use crate::document::check::Check;
-use crate::document::declare::keys;
+use crate::document::declare::{keys, unless_empty};
 use crate::document::describe::{Kind, Names, Shape, Table};
 use crate::document::fault::Problem;
 use crate::document::item::Item;
@@ -38,11 +38,9 @@ pub(super) static PHANTOM: Table<PhantomSource> = Table {
             /// World units between voxels.
             spacing: key("SPACE-2", SPACING);
             /// Stored type of a voxel; values are rounded to it.
-            type: key("IO-4", VOXEL_TYPE, |t| Some(t.voxel_type), |t, v| t.voxel_type = v);
+            voxel_type: key("IO-4", VOXEL_TYPE).named("type");
             /// Parameters of the phantom by name.
-            param: key("IO-4", TableOf(&PARAMS),
-                |t| Some(t.params.clone()).filter(|params| !params.is_empty()),
-                |t, v| t.params = v).absent("the phantom's own");
+            params: key("IO-4", TableOf(&PARAMS), |t| unless_empty(&t.params)).named("param").absent("the phantom's own");
         } },
     )
 };

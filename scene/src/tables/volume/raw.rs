@@ -33,9 +33,9 @@ pub(super) static RAW: Table<RawLayout> = Table::new(
         /// Voxels along x, y, z; x is fastest.
         size: key("IO-1", SIZE).required();
         /// Stored type of a voxel.
-        type: key("IO-1", VOXEL_TYPE, |t| Some(t.voxel_type), |t, v| t.voxel_type = v).required();
+        voxel_type: key("IO-1", VOXEL_TYPE).named("type").required();
         /// Order of the bytes of a number.
-        endian: key("IO-1", IS_BIG_ENDIAN, |t| Some(t.big_endian), |t, v| t.big_endian = v);
+        big_endian: key("IO-1", IS_BIG_ENDIAN).named("endian");
         /// World units between voxels.
         spacing: key("SPACE-2", SPACING);
         /// Bytes before the first voxel.
