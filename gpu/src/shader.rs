@@ -8,7 +8,7 @@ mod halo_stages;
 use crate::block::Block;
 use crate::module::Module;
 use crate::{Interpolation, Precision, number};
-use function::write_function;
+pub(crate) use function::write_function;
 pub(crate) use halo_stages::{HaloStages, Kept};
 use std::fmt::Write;
 

@@ -177,6 +177,7 @@ const CHOICES: &[Choice] = &[
         &[
             &[],
             &[("[object]", "name = \"a\"\nselection = \"s.nrrd\"\nghosting = 0.5")],
+            &[("[object]", "name = \"a\"\nselection = \"s.nrrd\"")],
             &[
                 (
                     "[object]",
@@ -442,6 +443,30 @@ fn files(folder: impl AsRef<Path>, suffix: &str) -> Vec<PathBuf> {
 /// The modules of the crate, by their files.
 fn modules() -> Vec<(PathBuf, String)> {
     files("src", "wgsl").into_iter().map(|path| (path.clone(), fs::read_to_string(path).unwrap())).collect()
+}
+
+/// Each module says which Rust file has the same formula, and has its stem or a variant of it; glue says what it is.
+#[test]
+fn each_module_names_its_twin() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let wrong: Vec<PathBuf> =
+        modules().into_iter().filter(|(path, text)| !names_a_twin(path, text, &root)).map(|(path, _)| path).collect();
+    assert!(wrong.is_empty(), "{wrong:?}");
+}
+
+fn names_a_twin(path: &Path, text: &str, root: &Path) -> bool {
+    let head = text.lines().take_while(|line| line.starts_with("//"));
+    let mut said = head
+        .filter_map(|line| line.strip_prefix("// Twin: ").map(Some).or(line.strip_prefix("// Glue: ").map(|_| None)));
+    match (said.next(), said.next()) {
+        (Some(None), None) => true,
+        (Some(Some(twin)), None) => {
+            let [stem, own] = [Path::new(twin), path].map(|path| path.file_stem().unwrap().to_str().unwrap());
+            let variant = own.strip_prefix(stem).is_some_and(|rest| rest.is_empty() || rest.starts_with('_'));
+            variant && twin.ends_with(".rs") && root.join(twin).is_file()
+        }
+        _ => false,
+    }
 }
 
 /// Each pair of alternatives that a scene can have occurs in one of the shaders, and so does each module; those for viewers

@@ -1,4 +1,5 @@
 // Cells with a corner whose voxel is no number in the file ([PREC-2]): a bit for each, x fastest.
+// Glue: A buffer.
 
 @group(1) @binding(22) var<storage, read> masked_cells: array<u32>;
 

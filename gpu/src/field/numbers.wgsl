@@ -1,4 +1,5 @@
 // The numbers that the kernel weighs: values minus the value of number 0, times a power of two.
+// Glue: A buffer.
 
 @group(1) @binding(0) var numbers: texture_3d<f32>;
 

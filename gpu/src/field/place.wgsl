@@ -1,4 +1,5 @@
 // The cell of a position, and the fractions within it ([REC-1], [SPACE-1]).
+// Twin: reference/src/field/place.rs
 
 struct Place {
     // min(floor(x), max(N - 2, 0)) on each axis.

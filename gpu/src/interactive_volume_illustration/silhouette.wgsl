@@ -1,4 +1,5 @@
 // Silhouettes: black where the surface turns away from the eye (4.4, [HATCH-15]).
+// Twin: reference/src/interactive_volume_illustration/tone/silhouette.rs
 
 // The test (N.V)^2 + offset > 1/2, which silhouettes fail.
 fn is_silhouette(n_dot_v: real, offset: real) -> bool {

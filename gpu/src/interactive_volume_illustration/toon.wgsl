@@ -1,4 +1,5 @@
 // Toon shading: tones with hard steps, by the angle between normal and light (4.4, [HATCH-15]).
+// Twin: reference/src/interactive_volume_illustration/tone/toon.rs
 
 struct Tone {
     // The lower bound of L.N + offset; the first tone holds from minus infinity on.

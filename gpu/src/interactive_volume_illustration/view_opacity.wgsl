@@ -1,4 +1,5 @@
 // View-dependent opacity: a translucent surface is more opaque where it turns away from the eye ([HATCH-15]).
+// Twin: reference/src/interactive_volume_illustration/tone/view_opacity.rs
 
 // The exponent 1 + s (1/max(|N.V|, 2^-6) - 1).
 fn view_exponent(n_dot_v: real) -> real {

@@ -1,4 +1,5 @@
 // Meshes as surfaces at which rays end ([VS-12]).
+// Glue: The end of a ray at a mesh.
 
 // The mesh at which the ray ends, -1 for none, and its normal there on the side of the eye, 0 for none.
 var<private> met_mesh: i32;

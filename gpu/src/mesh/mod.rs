@@ -51,7 +51,7 @@ pub(crate) fn add(
     shader.block.number("mesh_slack", 64.0 * epsilon);
     shader.block.number("mesh_value", value);
     shading::add_to_meshes(shader, phong);
-    shader.add(&[module!("triangle"), module!("box"), module!("nearest"), module!("normal"), module!("end")]);
+    shader.add(&[module!("triangle"), module!("tree"), module!("nearest"), module!("nearest_normal"), module!("end")]);
     shader.stages.ends.push("meet_mesh");
     Ok(())
 }

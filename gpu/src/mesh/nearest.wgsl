@@ -1,4 +1,5 @@
 // The place at which a ray first meets a mesh ([VS-12]).
+// Twin: reference/src/mesh/nearest.rs
 
 // Planes from the anchor beyond which meshes are not searched: neighbouring planes fall together farther away.
 const FARTHEST_MESH = 4.0e6;

@@ -1,4 +1,5 @@
 // The intersection of a ray with a triangle, watertight (Woop, Benthin and Wald 2013; [VS-12]).
+// Twin: reference/src/mesh/triangle.rs
 
 // A ray turned so that it runs along the third axis: axes are permuted so that its largest component comes last, and corners
 // are sheared along it. A corner has the same coordinates in every triangle that has it.

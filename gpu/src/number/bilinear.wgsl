@@ -1,4 +1,5 @@
 // Bilinear interpolation between the cells of a table or the texels of a picture.
+// Twin: reference/src/bilinear.rs
 
 // Channel by channel, a + w (b - a).
 fn mix_texels(a: vec4<real>, b: vec4<real>, w: real) -> vec4<real> {

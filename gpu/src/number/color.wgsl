@@ -1,4 +1,5 @@
 // sRGB and linear light ([VAL-3]).
+// Twin: scene/src/color.rs
 
 fn linear_to_srgb(c: real) -> real {
     if (c <= 0.0031308) {

@@ -1,4 +1,5 @@
 // Numbers in f64, for adapters that have them. A texel holds a number in two parts.
+// Glue: A type.
 
 alias real = f64;
 

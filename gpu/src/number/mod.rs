@@ -4,9 +4,9 @@ use crate::Precision;
 use crate::module::{Module, module};
 
 /// Functions of every scene.
-pub(crate) const NUMBER: Module = module!("number");
+pub(crate) const NUMBER: Module = module!("arithmetic");
 /// Transcendental functions.
-pub(crate) const ELEMENTARY: Module = module!("elementary");
+pub(crate) const ELEMENTARY: Module = module!("math");
 /// Bilinear interpolation.
 pub(crate) const BILINEAR: Module = module!("bilinear");
 /// sRGB.

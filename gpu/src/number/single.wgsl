@@ -1,4 +1,5 @@
 // Numbers in f32.
+// Glue: A type.
 
 alias real = f32;
 

@@ -1,4 +1,5 @@
 // The one over ([VAL-3]).
+// Twin: reference/src/accumulator.rs
 
 // Premultiplied colour and opacity of what lies in front.
 struct Front {

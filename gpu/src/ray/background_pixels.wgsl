@@ -1,4 +1,5 @@
 // A picture behind the volume, premultiplied.
+// Glue: A buffer.
 
 @group(1) @binding(4) var<storage, read> backdrop: array<real>;
 

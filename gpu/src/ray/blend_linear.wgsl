@@ -1,4 +1,5 @@
 // Compositing of linear colours ([VAL-3]).
+// Glue: A choice of the blend space.
 
 fn in_blend_space(rgb: vec3<real>) -> vec3<real> {
     return rgb;

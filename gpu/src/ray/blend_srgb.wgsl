@@ -1,4 +1,5 @@
 // Compositing of encoded colours ([VAL-3]).
+// Glue: A choice of the blend space.
 
 fn in_blend_space(rgb: vec3<real>) -> vec3<real> {
     return vec3<real>(linear_to_srgb(rgb.r), linear_to_srgb(rgb.g), linear_to_srgb(rgb.b));

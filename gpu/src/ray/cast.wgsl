@@ -1,4 +1,5 @@
 // The samples of a ray, front to back ([VAL-3], [VAL-4], [RAY-2]).
+// Glue: The loop over the samples of a ray.
 
 // The first channel of a pixel of which a driver ended a ray.
 const UNFINISHED = -2.0e30;

@@ -1,4 +1,5 @@
 // A ray through the volume alone.
+// Glue: The loop over the samples of a ray.
 
 fn cast_ray(ray: Ray) -> Front {
     begin_ray(ray);

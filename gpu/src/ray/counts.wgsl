@@ -1,4 +1,5 @@
 // Counts of samples as a layer ([IO-6]).
+// Twin: scene/src/counts.rs
 
 // Samples of the ray whose value was evaluated, and those of the pixel's first ray.
 var<private> samples_of_ray: i32;

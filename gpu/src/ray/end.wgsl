@@ -1,4 +1,5 @@
 // The opaque surface at which a ray ends: an iso-surface ([HATCH-14]) or a mesh ([VS-12]).
+// Glue: The end of a ray.
 
 // The plane at which the ray meets the surface, counted from the anchor, with its fraction; NO_HIT if it does not.
 var<private> hit: real;

@@ -1,4 +1,5 @@
 // N in eye space; a sample without a normal has N = v ([PREC-3]).
+// Glue: What samples are asked for.
 
 fn eye_normal(ray: Ray, a: Attributes) -> vec3<real> {
     if (!a.has_normal) {

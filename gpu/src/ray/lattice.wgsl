@@ -1,4 +1,5 @@
 // The rays of a picture, and the samples on them ([RAY-1]).
+// Twin: reference/src/ray/lattice.rs
 
 // The ray through a point of the picture, in pixels from the middle of the picture, to the right and up.
 fn ray_through(x: real, y: real) -> Ray {

@@ -1,4 +1,5 @@
 // Layers of a picture, from the samples of its rays ([IO-6]).
+// Twin: reference/src/ray/composite/layers.rs
 
 // A depth where nothing was met.
 const NOWHERE = 3.0e38;

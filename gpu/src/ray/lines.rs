@@ -16,7 +16,7 @@ pub(crate) const LINES: u32 = 4;
 
 /// Adds lines, before an iso-surface.
 pub(crate) fn add(shader: &mut Shader) {
-    shader.add(&[module!("lines")]);
+    shader.add(&[module!("path_lines")]);
     shader.stages.begin_part.push("begin_lines");
     shader.stages.ends.push("meet_lines_left");
 }

@@ -98,7 +98,7 @@ pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_li
     if has_lines {
         lines::add(shader);
     } else {
-        shader.add(&[module!("whole_sample")]);
+        shader.add(&[module!("path_whole")]);
     }
     shader.block.number("reference_length", object.reference_length);
     shader.block.number("stop_at", shot.stop_at);
@@ -110,10 +110,10 @@ pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_li
 
 /// Adds the measures of gradients that samples are asked for.
 pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Scales) {
-    shader.add(&[module!("normal")]);
+    shader.add(&[module!("evaluate_normal")]);
     shader.stages.measured.push("measure_gradient");
     if let Some([low, width]) = measured.gradient_range {
-        shader.add(&[module!("magnitude")]);
+        shader.add(&[module!("evaluate_magnitude")]);
         shader.block.number("gradient_low", scales.gradient(low));
         shader.block.number("gradient_width", scales.gradient(width));
         shader.stages.measured.push("measure_magnitude");
@@ -122,7 +122,7 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
 
 /// Adds the curvatures from Hessians that samples are asked for.
 pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
-    shader.add(&[module!("curvature")]);
+    shader.add(&[module!("evaluate_curvature")]);
     shader.constant("EXACT_KAPPA", Constant::Bool(query.kappa == KappaSource::Exact));
     shader.constant("PRINCIPAL", Constant::Bool(query.principal));
     shader.stages.measured.push("measure_curvature");
@@ -146,7 +146,7 @@ pub(crate) fn add_planes(shader: &mut Shader, planes: &ClipPlanes, caps: &[Cap],
         let (n, world) = (plane.index_normal, plane.normal);
         [[n.x, n.y, n.z, plane.index_offset, world.x, world.y].as_slice(), &[world.z], &cap].concat()
     };
-    shader.add(&[module!("planes")]);
+    shader.add(&[module!("plane")]);
     shader.constant("PLANES", Constant::Int(planes.0.len() as i64));
     shader.bind(7, "the clip planes", Data::Reals(planes.0.iter().flat_map(plane).collect()));
 }
@@ -154,7 +154,7 @@ pub(crate) fn add_planes(shader: &mut Shader, planes: &ClipPlanes, caps: &[Cap],
 /// Adds clip planes and what they leave of rays, before what shades is added.
 pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
     add_planes(shader, &clipping.planes, &clipping.caps, styles);
-    shader.add(&[module!("clip")]);
+    shader.add(&[module!("clipped_samples")]);
     shader.stages.samples_left.push("clip_run");
 }
 
@@ -192,7 +192,7 @@ pub(crate) fn add_bricks(shader: &mut Shader, shot: &Shot, bricks: &Bricks, scal
     for (i, far) in brick_distances::distances(&visible, bricks.dims).into_iter().enumerate() {
         words[i / 4] |= u32::from(far) << (8 * (i % 4));
     }
-    shader.add(&[module!("bricks")]);
+    shader.add(&[module!("brick_occupancy")]);
     add_brick_sizes(shader, bricks);
     shader.bind(5, "the distances of bricks", Data::Words(words));
     shader.stages.next_plane.push("skip_brick");
@@ -208,7 +208,7 @@ pub(crate) fn add_brick_sizes(shader: &mut Shader, bricks: &Bricks) {
 /// Adds pixels and what lies behind them.
 pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<'_>) {
     let [width, height] = shot.view.size;
-    shader.add(&[module!("pixel")]);
+    shader.add(&[module!("pixel_sum")]);
     shader.constant("WIDTH", Constant::Int(width as i64));
     shader.constant("HEIGHT", Constant::Int(height as i64));
     shader.constant("RAYS_ACROSS", Constant::Int(shot.rays_across as i64));

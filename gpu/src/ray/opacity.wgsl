@@ -1,4 +1,5 @@
 // Opacity correction ([VAL-4]).
+// Twin: reference/src/ray/opacity.rs
 
 // From an opacity per reference length to that of a way `ratio` times as long: 1 - (1 - alpha)^ratio.
 fn corrected(alpha: real, ratio: real) -> real {

@@ -1,4 +1,5 @@
 // The beauty of a finished picture in a viewer's texture: premultiplied, in linear light.
+// Glue: An entry point.
 
 @group(0) @binding(0) var<storage, read> finished: array<real>;
 @group(0) @binding(1) var shown: texture_storage_2d<rgba16float, write>;

@@ -1,4 +1,5 @@
 // Rays in index space, and the box of the volume.
+// Glue: A type.
 
 // A plane beyond all planes.
 const NO_HIT = 8.0e6;

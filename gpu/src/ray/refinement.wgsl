@@ -1,4 +1,5 @@
 // Adaptive antialiasing ([RAY-7]): 3 x 3 rays where the picture of one ray a pixel has edges.
+// Twin: reference/src/ray/refinement.rs
 
 // The first picture: the beauty leads the numbers of each pixel.
 @group(0) @binding(2) var<storage, read> first_picture: array<real>;

@@ -1,4 +1,5 @@
 // What a sample is: its place, its value, its attributes, and what it shows.
+// Glue: Types.
 
 struct Sample {
     // The plane, counted from the anchor.

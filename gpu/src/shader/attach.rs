@@ -3,7 +3,10 @@
 use super::declarations::{Declaration, declarations};
 use super::{Data, Shader};
 use crate::Precision;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+
+/// Bindings of attached shaders begin here, behind those that modules have.
+const FIRST: u32 = 32;
 
 impl Shader {
     /// Attaches what another shader declares: `roots` and everything that they use. Each of these names gets the suffix,
@@ -14,80 +17,72 @@ impl Shader {
     /// same data is one list.
     pub(crate) fn attach(&mut self, other: Shader, precision: Precision, suffix: &str, roots: &[&str], kept: bool) {
         let (own_text, text) = (self.text(precision), other.text(precision));
-        let own: BTreeMap<&str, Declaration<'_>> = by_name(&own_text);
-        let all: BTreeMap<&str, Declaration<'_>> = by_name(&text);
-        let (mut needed, order) = (reached(&all, roots), declarations(&text));
-        // All numbers of the scene are in one list.
-        needed.retain(|name| !["params", "Params"].contains(name));
-        let data = |shader: &Shader, binding: Option<u32>| -> Option<Data> {
-            let entry = shader.data.iter().find(|(at, ..)| Some(*at) == binding);
-            entry.map(|(_, _, data)| data.clone())
+        let (own, all) = (by_name(&own_text), by_name(&text));
+        let data = |shader: &Shader, binding: u32| -> Option<(&'static str, Data)> {
+            shader.data.iter().find(|(at, ..)| *at == binding).map(|(_, what, data)| (*what, data.clone()))
         };
         let is_same_list = |a: &Declaration<'_>, b: &Declaration<'_>| {
-            let data = [data(self, a.binding()), data(&other, b.binding())];
-            data[0].is_some() && data[0] == data[1] && data[0].as_ref().is_some_and(Data::is_constant)
+            let [a, b] = [(&*self, a), (&other, b)].map(|(shader, of)| of.binding().and_then(|at| data(shader, at)));
+            matches!((a, b), (Some((_, a)), Some((_, b))) if a == b && a.is_constant())
         };
-        let is_same = |name: &&str| -> bool {
-            let (Some(a), b) = (own.get(*name), &all[*name]) else { return false };
-            if b.is_variable { a.is_variable && is_same_list(a, b) } else { a.text.trim() == b.text.trim() }
+        let differs = |b: &Declaration<'_>| match own.get(b.name) {
+            Some(a) if b.is_variable() => !a.is_variable() || !is_same_list(a, b),
+            Some(a) => a.text.trim() != b.text.trim(),
+            None => true,
         };
-        let mut shared: BTreeSet<&str> = needed.iter().copied().filter(is_same).collect();
-        loop {
-            let is_shared = |name: &&str| {
-                all[*name].uses().all(|used| used != "params" && (!all.contains_key(used) || shared.contains(used)))
-            };
-            let left: BTreeSet<&str> = shared.iter().copied().filter(is_shared).collect();
-            if left.len() == shared.len() {
-                break;
-            }
-            shared = left;
+        let mut needed = BTreeMap::new();
+        for root in roots {
+            find_own(root, &all, &differs, &mut needed);
         }
-        let mut texts = Vec::new();
-        let mut next_binding = self.data.iter().map(|(binding, ..)| binding + 1).max().unwrap_or(0).max(FIRST);
-        let numbers: BTreeSet<&str> = other.block.names().collect();
+        let numbers: Vec<&str> = other.block.names().collect();
         let rename = |name: &str| {
-            let is_own = needed.contains(name) && !shared.contains(name) && !(kept && roots.contains(&name));
-            (is_own || numbers.contains(name)).then(|| format!("{name}{suffix}"))
+            let is_own = needed.get(name) == Some(&true) && !(kept && roots.contains(&name));
+            (is_own || numbers.contains(&name)).then(|| format!("{name}{suffix}"))
         };
-        for declaration in order {
-            let name = declaration.name;
-            if !needed.contains(name) || shared.contains(name) {
-                continue;
-            }
+        let mut next_binding = self.data.iter().map(|(binding, ..)| binding + 1).max().unwrap_or(0).max(FIRST);
+        let mut attached = String::new();
+        for declaration in declarations(&text).filter(|declaration| needed.get(declaration.name) == Some(&true)) {
             let mut text = declaration.renamed(rename);
-            if let Some(binding) = declaration.binding() {
-                let entry = other.data.iter().find(|(at, ..)| *at == binding);
-                if let Some((_, what, data)) = entry {
-                    text = text.replace(&format!("@binding({binding})"), &format!("@binding({next_binding})"));
-                    self.data.push((next_binding, what, data.clone()));
-                    next_binding += 1;
-                }
+            if let Some(binding) = declaration.binding()
+                && let Some((what, data)) = data(&other, binding)
+            {
+                text = text.replace(&format!("@binding({binding})"), &format!("@binding({next_binding})"));
+                self.data.push((next_binding, what, data));
+                next_binding += 1;
             }
-            texts.push(text);
+            attached.push_str(&text);
         }
         self.block.append(&other.block, suffix);
-        self.attached.push(texts.concat());
+        self.attached.push(attached);
     }
 }
-
-/// Bindings of attached shaders begin here, behind those that modules have.
-const FIRST: u32 = 32;
 
 /// Declarations by their names.
 fn by_name(text: &str) -> BTreeMap<&str, Declaration<'_>> {
-    declarations(text).into_iter().map(|declaration| (declaration.name, declaration)).collect()
+    declarations(text).map(|declaration| (declaration.name, declaration)).collect()
 }
 
-/// The names that roots lead to.
-fn reached<'t>(all: &BTreeMap<&'t str, Declaration<'t>>, roots: &[&str]) -> BTreeSet<&'t str> {
-    let mut found = BTreeSet::new();
-    let mut open: Vec<&str> = roots.to_vec();
-    while let Some(name) = open.pop() {
-        if let Some((&name, declaration)) = all.get_key_value(name)
-            && found.insert(name)
-        {
-            open.extend(declaration.uses());
-        }
+/// Finds the declarations that a name leads to, and whether each is the part's own: its text differs, or it uses one that is
+/// its own or a number of the scene. All numbers of the scene are in one list, which is not attached.
+fn find_own<'t>(
+    name: &str,
+    all: &BTreeMap<&'t str, Declaration<'t>>,
+    differs: &dyn Fn(&Declaration<'_>) -> bool,
+    found: &mut BTreeMap<&'t str, bool>,
+) -> bool {
+    let Some((&name, declaration)) = all.get_key_value(name) else { return false };
+    if ["params", "Params"].contains(&name) {
+        return true;
     }
-    found
+    if let Some(&is_own) = found.get(name) {
+        return is_own;
+    }
+    let mut is_own = differs(declaration);
+    // A declaration uses its own name.
+    found.insert(name, is_own);
+    for used in declaration.uses() {
+        is_own |= find_own(used, all, differs, found);
+    }
+    found.insert(name, is_own);
+    is_own
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// Appends a function with these lines. It returns an expression, or nothing.
-pub(super) fn write_function(
+pub(crate) fn write_function(
     text: &mut String,
     head: &str,
     lines: impl IntoIterator<Item = String>,

@@ -46,13 +46,13 @@ pub(crate) const MESH_LIGHT: &str = "mesh_light";
 /// Adds the reflection of light on meshes.
 pub(crate) fn add_to_meshes(shader: &mut Shader, phong: &PhongParams) {
     let is_whole = add_phong(shader, phong, MESH_LIGHT, |name| format!("mesh_{name}"));
-    shader.add(&[module!("phong_of_meshes")]);
+    shader.add(&[module!("shading_of_meshes")]);
     shader.constant("MESH_WHOLE_SHININESS", is_whole);
 }
 
 /// Adds Blinn–Phong with numbers of these names. Returns whether the shininess is a small whole number.
 fn add_phong(shader: &mut Shader, phong: &PhongParams, light: &'static str, name: impl Fn(&str) -> String) -> Constant {
-    shader.add(&[NUMBER, ELEMENTARY, module!("phong")]);
+    shader.add(&[NUMBER, ELEMENTARY, module!("shading")]);
     let (block, s) = (&mut shader.block, phong.shininess);
     block.vector(light, phong.light);
     for (key, value) in
@@ -68,11 +68,11 @@ pub(crate) fn add(shader: &mut Shader, phong: &PhongParams, of: LitColors) {
     let is_whole = add_phong(shader, phong, of.light(), |name| of.number(name));
     match of {
         LitColors::Samples => {
-            shader.add(&[module!("phong_of_samples")]);
+            shader.add(&[module!("shading_of_samples")]);
             shader.constant("WHOLE_SHININESS", is_whole);
         }
         LitColors::Surface => {
-            shader.add(&[module!("phong_of_surface")]);
+            shader.add(&[module!("shading_of_surface")]);
             shader.constant("SURFACE_WHOLE_SHININESS", is_whole);
         }
     }

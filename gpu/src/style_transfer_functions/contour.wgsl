@@ -1,4 +1,5 @@
 // The push of style contours ([STF-8]).
+// Twin: reference/src/style_transfer_functions/contour.rs
 
 // (N_x, N_y) pushed outwards along the radius where |N.v| <= tau: r' = min(1, r/delta), delta = |N.v|/tau.
 // There is no push for tau = 0, and r = 0 stays 0.

@@ -1,4 +1,5 @@
 // The threshold of eq. 1 ([STF-7]).
+// Twin: reference/src/style_transfer_functions/contour.rs
 
 // sqrt(x (2 - x)), x = T kappa clamped to [0, 1].
 fn contour_root(t_kappa: real) -> real {

@@ -1,4 +1,5 @@
 // Contours that fade in with |g| ([STF-7]).
+// Twin: reference/src/style_transfer_functions/contour.rs
 
 // Smoothstep t^2 (3 - 2t), t = clamp((|g| - lo)/(hi - lo)). For hi = lo a step, which |g| = lo has passed.
 fn contour_fade(g: real) -> real {

@@ -1,4 +1,5 @@
 // kappa_v from two normals along a ray (3.3, Fig. 6; [STF-5]).
+// Twin: reference/src/style_transfer_functions/curvature_along_ray.rs
 
 // The last sample of the ray that was asked for its normal, and the normal; its plane is before every other at first.
 var<private> asked_plane: i32;

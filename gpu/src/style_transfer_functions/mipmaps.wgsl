@@ -1,4 +1,5 @@
 // The level of detail at which a style is looked up ([STF-10]).
+// Twin: reference/src/style_transfer_functions/mipmaps.rs
 
 // Of a style log2 S, of a mip-map its lambda = log2(S/side).
 @group(1) @binding(12) var<storage, read> lambdas: array<real>;

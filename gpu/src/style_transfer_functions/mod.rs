@@ -11,8 +11,8 @@ use drypoint_scene::style::Style;
 /// Adds κ along the ray ([STF-5]).
 pub(crate) fn add_curvature_along_ray(shader: &mut Shader, turn: Turn) {
     let of_turn = match turn {
-        Turn::OfNormals => module!("turn_of_normals"),
-        Turn::OfLines => module!("turn_of_lines"),
+        Turn::OfNormals => module!("curvature_along_ray_of_normals"),
+        Turn::OfLines => module!("curvature_along_ray_of_lines"),
     };
     shader.add(&[ELEMENTARY, of_turn, module!("curvature_along_ray")]);
     shader.stages.begin_ray.push("forget_normal");
@@ -30,7 +30,7 @@ pub(crate) fn add(
     between: Module,
 ) {
     match params.level_of_detail {
-        None => shader.add(&[module!("no_mipmaps")]),
+        None => shader.add(&[module!("mipmaps_none")]),
         Some(level) => {
             shader.add(&[ELEMENTARY, module!("mipmaps")]);
             let block = &mut shader.block;
@@ -43,21 +43,21 @@ pub(crate) fn add(
     }
     // Which styles, and their mix.
     if of_node.iter().enumerate().all(|(k, &j)| k == j) {
-        shader.add(&[module!("index_same")]);
+        shader.add(&[module!("lookup_index_same")]);
     } else {
-        shader.add(&[module!("index")]);
+        shader.add(&[module!("lookup_index")]);
         shader.bind(3, "the styles of nodes", Data::Words(of_node.iter().map(|&j| j as u32).collect()));
     }
     match params.mix {
-        Mix::Premultiplied => shader.add(&[module!("mix_premultiplied")]),
-        Mix::Printed => shader.add(&[ELEMENTARY, COLOR, module!("mix_printed")]),
+        Mix::Premultiplied => shader.add(&[module!("lookup_mix_premultiplied")]),
+        Mix::Printed => shader.add(&[ELEMENTARY, COLOR, module!("lookup_mix_printed")]),
     }
-    shader.add(&[module!("blend"), between]);
+    shader.add(&[module!("lookup"), between]);
     // The normal that is looked up, and the opacity.
     shader.add(&[EYE_NORMAL]);
     add_frame(shader, params.frame);
     match &params.contour {
-        None => shader.add(&[module!("no_contour")]),
+        None => shader.add(&[module!("contour_none")]),
         Some(contour) => add_contour(shader, contour),
     }
     shader.add(&[match params.transparency {
@@ -69,7 +69,7 @@ pub(crate) fn add(
 }
 
 /// The styles of a place between the nodes of a function over the value.
-pub(crate) const OVER_VALUE: Module = module!("style_over_value");
+pub(crate) const OVER_VALUE: Module = module!("lookup_over_value");
 
 /// Adds the frame of the lit sphere ([STF-1]).
 fn add_frame(shader: &mut Shader, frame: SphereFrame) {
@@ -112,7 +112,7 @@ pub(crate) fn add_spheres(shader: &mut Shader, clipping: &Clipping, styles: [&[S
     if !of_caps.is_empty() {
         shader.add(&[ELEMENTARY, COLOR, EYE_NORMAL]);
         add_frame(shader, clipping.frame);
-        shader.add(&[module!("cap")]);
+        shader.add(&[module!("cut_style")]);
         shader.stages.cut.push("show_styled_cap");
     }
 }

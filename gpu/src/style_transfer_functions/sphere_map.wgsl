@@ -1,4 +1,5 @@
 // The lookup of a lit sphere by a normal ([STF-1]).
+// Twin: reference/src/style_transfer_functions/sphere_map.rs
 
 struct SphereMap {
     // Its first texel, and the texels along its side.

@@ -1,4 +1,5 @@
 // A sample in its styles (Bruckner and Groeller 2007).
+// Glue: A sample in its styles.
 
 // Straight colour, and opacity per reference length.
 fn shade_style(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {

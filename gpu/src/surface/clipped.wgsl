@@ -1,4 +1,5 @@
 // An iso-surface that planes cut: a ray meets what they leave of it, or a plane that cuts its inside open ([RAY-8]).
+// Twin: reference/src/surface/clipped.rs
 
 // The plane on which the ray meets the surface; -1: the surface itself.
 var<private> hit_plane: i32;

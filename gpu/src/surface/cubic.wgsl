@@ -1,4 +1,5 @@
 // The first root of a cubic on [0, 1], from its Bernstein coefficients: the value never leaves their range.
+// Twin: reference/src/surface/cubic.rs
 
 // a + u(b - a) for u in [0, 1], from the nearer end: exact at both, and for a = b.
 fn mix_ends(a: real, b: real, u: real) -> real {

@@ -1,4 +1,5 @@
 // kappa_v at an iso-surface, from the normal one step before it ([STF-5], [HATCH-14]).
+// Twin: reference/src/style_transfer_functions/curvature_along_ray.rs
 
 // Samples of the volume lie on their planes, places on the surface behind them.
 fn measure_along_ray_at_surface(ray: Ray, sample: Sample, known: Attributes) -> Attributes {

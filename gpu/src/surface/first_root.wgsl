@@ -1,4 +1,5 @@
 // The first place on a ray where the field has the value of an iso-surface ([HATCH-14]).
+// Twin: reference/src/surface/first_root.rs
 
 // The result of a search in one cell.
 struct CellSearch {

@@ -20,11 +20,11 @@ pub(crate) fn add_search(
     slack: f64,
     has_mask: bool,
 ) {
-    shader.add(&[module!("traversal"), module!("first_root"), module!("bracket")]);
+    shader.add(&[module!("traversal"), module!("first_root"), module!("cubic_bracket")]);
     match kernel {
-        Kernel::Trilinear => shader.add(&[module!("cubic"), module!("trilinear_cell")]),
+        Kernel::Trilinear => shader.add(&[module!("cubic"), module!("first_root_trilinear")]),
         Kernel::Bspline | Kernel::BsplineSmooth | Kernel::Bspline5 | Kernel::CatmullRom => {
-            shader.add(&[module!("stepped_cell")]);
+            shader.add(&[module!("first_root_stepped")]);
         }
     }
     if let Some(bricks) = &measured.bricks {
@@ -32,7 +32,7 @@ pub(crate) fn add_search(
         for (i, [lo, hi]) in bricks.ranges.iter().enumerate() {
             words[i / 32] |= u32::from(lo - slack <= iso && iso <= hi + slack) << (i % 32);
         }
-        shader.add(&[module!("bricks")]);
+        shader.add(&[module!("active")]);
         shader.bind(23, "the bricks of the surface", Data::Words(words));
         shader.stages.passed.push("pass_brick");
     }
@@ -45,7 +45,7 @@ pub(crate) fn add_search(
 
 /// Adds the inside of the surface, where planes cut.
 pub(crate) fn add_inside(shader: &mut Shader, outside: Outside, has_mask: bool) {
-    shader.add(&[module!("inside"), if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
+    shader.add(&[module!("clipped_inside"), if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
     shader.constant("OUTSIDE_IS_LOW", Constant::Bool(outside == Outside::Low));
 }
 

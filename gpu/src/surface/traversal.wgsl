@@ -1,4 +1,5 @@
 // The cells on a ray, from face to face. The ray's parameter t counts sample planes from the anchor.
+// Twin: reference/src/surface/traversal.rs
 
 // A place on the ray, and the axis of the face that lies there; -1 if none does.
 struct Crossing {

@@ -1,4 +1,5 @@
 // Colours of nodes ([VAL-3]).
+// Glue: A buffer.
 
 struct NodeColor {
     r: real,

@@ -1,4 +1,5 @@
 // A piecewise-linear opacity over values ([STF-3]).
+// Twin: reference/src/transfer/piecewise.rs
 
 struct Node {
     // The value where the segment to the next node begins, and the segment's width.

@@ -1,4 +1,5 @@
 // A function that is read from a table ([STF-3]).
+// Twin: reference/src/transfer/table.rs
 
 // From a place between entries to a place between nodes.
 fn between_nodes(entry: NodePlace) -> NodePlace {

@@ -1,4 +1,5 @@
 // Points that an opaque iso-surface hides ([STIP-15]). Lengths are in voxels.
+// Twin: reference/src/volume_stippling/hidden.rs
 
 struct SurfacePoint {
     // Index position.

@@ -174,11 +174,11 @@ pub(crate) fn shader(hiding: &Hiding<'_>, precision: Precision) -> Shader {
     let (slack, has_mask) = (ray::rounding(&scales, precision), mask.is_some());
     surface::add_search(&mut shader, reconstruction.kernel, iso, measured, &scales, slack, has_mask);
     if clip.is_empty() {
-        shader.add(&[module!("meets_whole")]);
+        shader.add(&[module!("hidden_whole")]);
     } else {
         ray::add_planes(&mut shader, clip, &[], 0);
         surface::add_inside(&mut shader, reconstruction.outside, has_mask);
-        shader.add(&[module!("meets_clipped")]);
+        shader.add(&[module!("hidden_clipped")]);
     }
     shader.add(&[module!("hidden")]);
     shader.constant("PERSPECTIVE", Constant::Bool(perspective));

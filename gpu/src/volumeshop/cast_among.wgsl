@@ -1,4 +1,5 @@
 // A ray among objects: runs of samples of the background alone as if there were no objects, the others one by one.
+// Glue: The loop over the samples of a ray.
 
 fn cast_ray(ray: Ray) -> Front {
     var front = Front();

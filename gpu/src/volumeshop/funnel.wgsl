@@ -1,4 +1,5 @@
 // Smooth cutaways: a funnel about an object (6.2, 7; [VS-7]). Depths are counted from the plane at the anchor.
+// Twin: reference/src/volumeshop/funnel.rs
 
 // The coverage c~ and the mean depth d^ of each pixel of each funnel.
 @group(0) @binding(5) var<storage, read> funnel_maps: array<vec2<real>>;

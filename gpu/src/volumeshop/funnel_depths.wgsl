@@ -1,4 +1,5 @@
 // The far depths of objects with funnels, on the rays of a picture and of guard bands about it ([VS-7]).
+// Twin: reference/src/volumeshop/funnel.rs
 
 // The guard band of each funnel in pixels, and the place of its first depth.
 @group(1) @binding(26) var<storage, read> funnel_bands: array<vec2<u32>>;

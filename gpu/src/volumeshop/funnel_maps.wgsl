@@ -1,5 +1,6 @@
 // The maps of funnels, from far depths: coverage and covered depth, dilated and smoothed (7; [VS-7]). Rows of a funnel hold its
 // guard band, and beyond it is nothing.
+// Twin: reference/src/volumeshop/funnel.rs
 
 struct Funnel {
     // The guard band in pixels, and the place of its first depth.

@@ -1,4 +1,5 @@
 // Ghosting: how far the background before an object fades (6.2; [VS-7]).
+// Twin: reference/src/volumeshop/ghosting.rs
 
 // max(0, 1 - gamma (2 - e)).
 fn ghosting_factor(gamma: real, enhancement: real) -> real {

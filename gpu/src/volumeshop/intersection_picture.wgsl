@@ -1,4 +1,5 @@
 // Pictures of intersection transfer functions ([VS-4]): colours over the value at p and that at T p.
+// Twin: scene/src/intersection_picture.rs
 
 // Pixels of pictures, and dabs.
 @group(1) @binding(25) var<storage, read> intersection_tables: array<vec4<real>>;
@@ -16,4 +17,9 @@ fn intersection_at(first: i32, width: i32, height: i32, x: real, y: real) -> vec
     let at = first + row.i * width + column.i;
     let below = at + width * min(height - 1, 1);
     return mix_texels(intersection_row(at, width, column.w), intersection_row(below, width, column.w), row.w);
+}
+
+// The place of a value within a range, from 0 to 1.
+fn share_of_range(value: real, low: real, width: real) -> real {
+    return (value - low) / width;
 }

@@ -1,4 +1,5 @@
 // Lighting transfer functions: colours and opacities from a table over (N.L, N.H) (5, eq. 8; [VS-5]).
+// Twin: reference/src/volumeshop/lighting.rs
 
 // The cells, row by row from the top: s_a, s_d, s_s and s_alpha.
 @group(1) @binding(24) var<storage, read> lighting_cells: array<vec4<real>>;

@@ -1,4 +1,5 @@
 // A selection by the data's value ([VS-2]).
+// Twin: reference/src/volumeshop/membership.rs
 
 fn membership_at(k: i32, s: real) -> real {
     return locate_value(s).alpha_u;

@@ -1,4 +1,5 @@
 // A selection volume: trilinear, whatever the kernel of the data ([VS-2]). Its list holds the voxels of its box.
+// Twin: reference/src/volumeshop/membership.rs
 
 fn membership_at(k: i32, s: real) -> real {
     let at = locate(position(selection_ray, k) - first_member());

@@ -39,16 +39,16 @@ pub(crate) fn add(
     if !shader.modules.iter().any(|module| module.text.contains("fn moved_gradient")) {
         shader.add(&[gradient::STILL]);
     }
-    shader.add(&[module!("part")]);
-    shader.add(&[if is_of_volume { module!("sample_of_volume") } else { module!("sample_of_part") }]);
+    shader.add(&[module!("part_ray")]);
+    shader.add(&[if is_of_volume { module!("part_ray_shared") } else { module!("part_ray_own") }]);
     if takes {
         shader.add(&[module!("part_takes")]);
     }
     if has_last_member {
-        shader.add(&[module!("last_member")]);
+        shader.add(&[module!("part_ray_last")]);
     }
     if seeds {
-        shader.add(&[module!("part_seeds")]);
+        shader.add(&[module!("object_seeds")]);
     }
     shader.constant("BY_VALUE", Constant::Bool(matches!(selection.membership, Membership::Value(_))));
     // Its numbers in those of the picture's volume.

@@ -14,7 +14,7 @@ pub(crate) const NAMES: &[&str] = &["aim_selection", "selection_range", "is_in_s
 
 /// Adds a selection, to a shader with the rays of its memberships' grid; `scales` are those of the data's values.
 pub(crate) fn add(shader: &mut Shader, selection: &SelectionParams, memberships: Option<&Selection>, scales: &Scales) {
-    shader.add(&[module!("selection")]);
+    shader.add(&[module!("selection_ray")]);
     // An empty selection has no box, and no cutaway asks for it.
     let [low, high] = selection.index_box.unwrap_or_default();
     shader.block.vector("selected_low", low);

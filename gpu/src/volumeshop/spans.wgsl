@@ -1,4 +1,5 @@
 // Spans of samples at which the same parts can show something.
+// Glue: Ranges of samples.
 
 // From sample k on: the last sample up to which the same parts can show something, and whether there are any.
 struct Span {

@@ -1,4 +1,5 @@
 // The samples of a picture without objects: each shows and seeds by the volume alone.
+// Glue: The samples of a picture, to show and to seed.
 
 fn aim_image(at: vec2<i32>) {
 }

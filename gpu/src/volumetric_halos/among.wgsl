@@ -1,4 +1,5 @@
 // The samples of a picture with objects: each set shows and seeds by its own ([VS-2]).
+// Glue: The samples of a picture, to show and to seed.
 
 // The samples at which the background can seed.
 var<private> own_seeds: vec2<i32>;

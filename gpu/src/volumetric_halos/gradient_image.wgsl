@@ -1,4 +1,5 @@
 // The magnitude of the seed image's gradient ([HALO-4]).
+// Twin: reference/src/volumetric_halos/gradient_image.rs
 
 // Half the difference of two taps in x and in y, over q pixels on both sides.
 fn difference_in(x: i32, y: i32, layer: i32, step: vec2<i32>, taps: HaloTaps) -> vec4<real> {

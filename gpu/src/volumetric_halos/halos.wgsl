@@ -1,4 +1,5 @@
 // The halos of a picture ([HALO-1]).
+// Glue: A buffer.
 
 // The parameters of a halo. Lists lie in `halo_numbers`, from a first number on.
 struct Halo {

@@ -1,4 +1,5 @@
 // The median of 3 x 3 seeds, which takes single pixels away before they spread ([HALO-4]).
+// Twin: reference/src/volumetric_halos/median.rs
 
 // The filtered seeds; 0 beyond the border.
 fn seeds_at(x: i32, y: i32, layer: i32) -> vec4<real> {

@@ -57,7 +57,7 @@ pub(crate) fn add(
     for halo in list {
         numbers.extend(parameters(halo, list.len(), &mut lists, place, scales));
     }
-    shader.add(&[NUMBER, ELEMENTARY, module!("halos"), module!("seeds"), module!("seed_value")]);
+    shader.add(&[NUMBER, ELEMENTARY, module!("halos"), module!("seed"), module!("seed_value")]);
     shader.constant("HALOS", Constant::Int(list.len() as i64));
     if !is_part {
         add_images(shader, shot, &mut lists);
@@ -76,13 +76,13 @@ pub(crate) fn add(
         for (name, axis) in [("halo_axis_x", axes.x_axis), ("halo_axis_y", axes.y_axis), ("halo_axis_z", axes.z_axis)] {
             shader.block.vector(name, axis);
         }
-        shader.add(&[module!("seed_focus")]);
+        shader.add(&[module!("focus")]);
         height.push("by_focus");
     }
     shader.add(&[EYE_NORMAL]);
     shader.add(&[match any(|halo| halo.seed.direction.is_some_and(|direction| direction.width < 360.0)) {
-        true => module!("seed_direction"),
-        false => module!("seed_all_directions"),
+        true => module!("direction"),
+        false => module!("direction_none"),
     }]);
     let reads_opacity = any(|halo| matches!(halo.seed.value, Some(SeedValue::Opacity)));
     let is_over_two = object.function.nodes().2.is_some();
@@ -125,8 +125,14 @@ fn add_images(shader: &mut Shader, shot: &Shot, lists: &mut Lists) {
     }
     let alike =
         |a: &HaloParams, b: &HaloParams| a.spread.passes == b.spread.passes && a.spread.stretch == b.spread.stretch;
-    shader.add(&[module!("images"), module!("tiles"), module!("profile"), module!("tint"), module!("glow")]);
-    shader.add(&[module!("rays"), module!("seed_rays"), module!("planes"), module!("spreading")]);
+    shader.add(&[
+        module!("halo_planes_images"),
+        module!("tiles"),
+        module!("profile"),
+        module!("halo_planes_tint"),
+        module!("halo_planes_glow"),
+    ]);
+    shader.add(&[module!("plane_order"), module!("seed_rays"), module!("planes"), module!("spreading")]);
     shader.add(&[if shot.combination.is_some() { module!("among") } else { module!("alone") }]);
     shader.add(&[if ends_rays(shot) { module!("end_at_surface") } else { module!("no_end") }]);
     for (name, value) in [

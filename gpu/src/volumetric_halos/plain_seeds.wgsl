@@ -1,4 +1,5 @@
 // Seeds as they are; 0 beyond the border.
+// Glue: A choice of the median.
 
 fn seeds_at(x: i32, y: i32, layer: i32) -> vec4<real> {
     if (x < 0 || y < 0 || x >= IMAGE_X || y >= IMAGE_Y) {

@@ -1,6 +1,7 @@
 // The visit of a group's planes: rays of the picture composite them, and rays of the images seed ([HALO-1], [HALO-7]). On
 // each plane a ray composites its sample, then the glow of the groups before, then it seeds; neither asks for what the
 // other does, and a sample that is visited for both is measured once.
+// Glue: An entry point.
 
 @compute @workgroup_size(8, 8)
 fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -1,4 +1,5 @@
 // The halo profile (3.3, [HALO-6]): from intensity to colour and opacity.
+// Twin: reference/src/volumetric_halos/profile.rs
 
 struct ProfileNode {
     at: real,

@@ -1,4 +1,5 @@
 // h_l: 1 for samples of a halo's labels, else 0 (3.1, [HALO-2]).
+// Twin: reference/src/volumetric_halos/seed.rs
 
 @group(1) @binding(32) var<storage, read> seed_labels: array<u32>;
 

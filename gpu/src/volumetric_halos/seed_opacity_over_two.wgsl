@@ -1,5 +1,6 @@
 // h_v: the opacity of a transfer function over two quantities ([HALO-2], [STF-4]). What it asks for becomes part of the
 // attributes, of invisible samples too, which seed other halos.
+// Twin: reference/src/volumetric_halos/seed.rs
 
 fn ask_opacity(ray: Ray, sample: Sample) {
     seed_known = measured_first(ray, sample);

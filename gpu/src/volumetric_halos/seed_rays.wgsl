@@ -1,5 +1,6 @@
 // Rays of seeds. A seed depends on the field at its sample alone, so seeds have rays of their own, in the guard band about the
 // picture too, with samples on the same planes.
+// Twin: reference/src/ray/composite/seed_rays.rs
 
 // Numbers of a ray of the images: the plane of its next sample, its last one, then what effects keep.
 const SEED_KEPT = 2;

@@ -1,4 +1,5 @@
 // h_v: the opacity, or a piecewise-linear function over the value ([HALO-2]).
+// Twin: reference/src/volumetric_halos/seed.rs
 
 // The function of a halo's nodes: at, width to the next one, h, h of the next one. Beyond the nodes the end nodes hold, and
 // of several nodes at one value the last.

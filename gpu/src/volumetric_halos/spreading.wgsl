@@ -1,4 +1,5 @@
 // From seeds to intensities: the seed image's gradient, and its spreading (3.2, [HALO-4], [HALO-5]).
+// Twin: reference/src/volumetric_halos/spreading.rs
 
 // H_0; H of the pass before, or filtered seeds; the image that is written.
 @group(3) @binding(0) var<storage, read> source_image: array<vec4<real>>;

@@ -1,4 +1,5 @@
 // Square tiles of the images: passes visit those alone in which an image differs from zero ([RAY-2]).
+// Glue: Tiles of images.
 
 // Flags of tiles, each kind in a list of its own: seeds wait in the tile; an image can differ from zero; the number of the
 // last group, counted from 1, behind which a ray was open; seeds can reach a ray that is open.

@@ -35,9 +35,9 @@ fn curvatures() {
     table.retain(|row| across(row) == 0.0 || across(row) > 1e-3);
     let kernel = Kernel {
         modules: modules(&[
-            "number/number",
+            "number/arithmetic",
             "field/gradient/still",
-            "field/gradient/gradient",
+            "field/gradient/normal",
             "field/hessian/second",
             "field/hessian/curvature",
         ]) + "struct Place { cell: vec3<i32>, w: vec3<real> }
@@ -94,7 +94,7 @@ fn first_roots_of_cubics() {
     let along = "var<private> cell_cubic: vec4<real>;
         fn along_cell(u: real) -> real { return cubic_at(cell_cubic, u); }";
     let kernel = Kernel {
-        modules: modules(&["surface/cubic", "surface/bracket"]) + along,
+        modules: modules(&["surface/cubic", "surface/cubic_bracket"]) + along,
         before: cubic,
         results: &["first_root_of(b)"],
         ..Kernel::default()

@@ -52,10 +52,10 @@ fn seed(gradient_exponent: f64, side: SeedSide) -> HaloSeed {
 
 /// The text of seeds' formulas, without what samples are asked for.
 fn seed_formulas() -> String {
-    let whole = modules(&["volumetric_halos/seeds"]);
+    let whole = modules(&["volumetric_halos/seed"]);
     let from = whole.find("// x^y for x in [0, 1]").unwrap();
     let functions = &whole[from..whole.find("// Adds the seeds of a sample").unwrap()];
-    modules(&["number/number", "number/elementary", "volumetric_halos/halos"]) + functions
+    modules(&["number/arithmetic", "number/math", "volumetric_halos/halos"]) + functions
 }
 
 /// s: the error of 1 − |n·v| and of |g| is multiplied by their exponents; both powers have a logarithm and an exponential
@@ -131,7 +131,7 @@ fn influences_of_values() {
     let halo = parameters(&[("value", 2.0), ("nodes", 5.0)]);
     let opacity = "var<private> seed_alpha_u: real;\nstruct Sample { s: real, }\n";
     let kernel = Kernel {
-        modules: modules(&["number/number", "volumetric_halos/halos", "volumetric_halos/seed_value"]) + opacity,
+        modules: modules(&["number/arithmetic", "volumetric_halos/halos", "volumetric_halos/seed_value"]) + opacity,
         lists: &[(30, &halo), (31, &list)],
         before: "let sample = Sample(x[0]);",
         results: &["by_value(0, sample, 1.0)"],
@@ -160,7 +160,7 @@ fn influences_of_places() {
         let list: Vec<f64> = at.iter().flatten().copied().collect();
         let halo = parameters(&[("points", points as f64), ("inner", inner), ("falloff", falloff)]);
         let kernel = Kernel {
-            modules: modules(&["number/number", "volumetric_halos/halos", "volumetric_halos/seed_focus"])
+            modules: modules(&["number/arithmetic", "volumetric_halos/halos", "volumetric_halos/focus"])
                 + "struct Sample { position: vec3<real>, }",
             vectors: &[
                 ("halo_axis_x", [1.0, 0.0, 0.0]),
@@ -190,9 +190,9 @@ fn influences_of_directions() {
     let mut next = random(24);
     for (toward, width, softness) in [(90.0, 60.0, 20.0), (-200.0, 0.0, 180.0), (359.0, 200.0, 90.0)] {
         let turn = f64::to_radians(f64::rem_euclid(toward, 360.0));
-        let whole = modules(&["volumetric_halos/seed_direction"]);
+        let whole = modules(&["volumetric_halos/direction"]);
         let kernel = Kernel {
-            modules: modules(&["number/elementary"]) + &whole[..whole.find("fn seed_direction").unwrap()],
+            modules: modules(&["number/math"]) + &whole[..whole.find("fn seed_direction").unwrap()],
             params: &[
                 ("toward_x", math::sin(turn)),
                 ("toward_y", math::cos(turn)),
@@ -229,7 +229,7 @@ fn profiles() {
     table.extend([[0.0], [0.125], [0.5], [1.0], [1e-20]]);
     for (blend, encode) in [("blend_linear", false), ("blend_srgb", true)] {
         let kernel = Kernel {
-            modules: modules(&["number/elementary", "number/color", "ray/accumulator", &format!("ray/{blend}")])
+            modules: modules(&["number/math", "number/color", "ray/accumulator", &format!("ray/{blend}")])
                 + &modules(&["volumetric_halos/halos", "volumetric_halos/profile"]),
             lists: &[(30, &halo), (31, &list)],
             before: "let c = profile_at(0, x[0]);",
@@ -247,7 +247,7 @@ fn profiles() {
 #[test]
 fn tints() {
     let Some(gpu) = gpu() else { return };
-    let whole = modules(&["volumetric_halos/tint"]);
+    let whole = modules(&["volumetric_halos/halo_planes_tint"]);
     let kernel = Kernel {
         modules: whole[..whole.find("// The tint of all occlusive halos").unwrap()].to_owned(),
         before: "let first = mix_in(Tint(1.0, vec3<real>()), vec3<real>(x[0]), x[1]);
@@ -313,7 +313,7 @@ fn medians() {
 #[test]
 fn ends_of_groups() {
     let Some(gpu) = gpu() else { return };
-    let whole = modules(&["volumetric_halos/images"]);
+    let whole = modules(&["volumetric_halos/halo_planes_images"]);
     let from = whole.find("// Whether a group of M planes").unwrap();
     let kernel = Kernel {
         modules: whole[from..whole.find("// The pixel that a ray of the images").unwrap()].to_owned(),

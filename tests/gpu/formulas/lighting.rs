@@ -46,7 +46,10 @@ fn lighting_tables() {
         let function = LightingFunction::<f64>::new(&params);
         let sizes = format!("const LIGHTING_WIDTH: i32 = {width};\nconst LIGHTING_HEIGHT: i32 = {height};\n");
         let kernel = Kernel {
-            modules: format!("{sizes}{TYPES}{}", modules(&["number/number", "number/bilinear", "volumeshop/lighting"])),
+            modules: format!(
+                "{sizes}{TYPES}{}",
+                modules(&["number/arithmetic", "number/bilinear", "volumeshop/lighting"])
+            ),
             params: &[("divisor_floor", 0.25)],
             vectors: &[("light", light)],
             lists: &[(24, cells.as_flattened())],

@@ -138,7 +138,7 @@ fn boxes_are_met_at_their_slabs() {
         }
     }
     let kernel = Kernel {
-        modules: modules(&["mesh/box"]),
+        modules: modules(&["mesh/tree"]),
         params: &[("mesh_slack", 128.0 * U)],
         before: "let inverse = inverse_of(vec3<real>(x[3], x[4], x[5]));
             let is_met = meets_box(vec3<real>(x[0], x[1], x[2]), inverse, vec3<real>(x[6], x[7], x[8]),
@@ -174,7 +174,7 @@ fn normals_are_on_the_side_of_the_eye() {
     }
     table.push([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     let kernel = Kernel {
-        modules: modules(&["mesh/normal"]),
+        modules: modules(&["mesh/nearest_normal"]),
         before: "let flat_normal = vec3<real>(x[0], x[1], x[2]);
             let n = seen_normal(flat_normal, vec3<real>(x[3], x[4], x[5]), vec3<real>(x[6], x[7], x[8]));",
         results: &["n.x", "n.y", "n.z"],

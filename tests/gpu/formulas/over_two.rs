@@ -66,7 +66,7 @@ fn places_in_the_plane() {
                  fn down(ray: Ray, s: Sample, a: Attributes) -> Coordinate {{ return Coordinate(s.y, u32(s.y)); }}\n{}",
                 is_id[0],
                 is_id[1],
-                modules(&["number/number", "transfer/over/plane"])
+                modules(&["number/arithmetic", "transfer/over/plane"])
             ),
             lists: &[(13, &numbers)],
             words: &[(14, &words)],
@@ -159,7 +159,7 @@ fn labels_at_positions() {
                  const LABEL_BITS = 16;\nconst LABELS_X = {};\nconst LABELS_Y = {};\n{}",
                 dims[0],
                 dims[1],
-                modules(&["transfer/over/label", &format!("transfer/over/{on}"), &format!("transfer/over/{place}")])
+                modules(&["transfer/over/labels", &format!("transfer/over/{on}"), &format!("transfer/over/{place}")])
             ),
             vectors: &vectors,
             words: &[(15, &words)],
@@ -208,7 +208,7 @@ fn distances_from_points() {
     let [x, y, z] = grid.axes().to_cols_array_2d();
     let offset = (grid.origin() - point).to_array();
     let kernel = Kernel {
-        modules: modules(&["transfer/over/point_distance"]),
+        modules: modules(&["transfer/over/point"]),
         vectors: &[("world_axis_x", x), ("world_axis_y", y), ("world_axis_z", z), ("offset", offset)],
         results: &["distance_from(vec3<real>(x[0], x[1], x[2]), offset())"],
         ..Kernel::default()
@@ -268,10 +268,10 @@ fn values_of_further_volumes() {
             modules: format!(
                 "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
                 modules(&[
-                    "number/number",
+                    "number/arithmetic",
                     "transfer/over/grid_numbers",
-                    "transfer/over/further_volume",
-                    "transfer/over/further_masked"
+                    "transfer/over/other_volume",
+                    "transfer/over/other_volume_masked"
                 ])
             ),
             params: &[("grid_slack", OtherGrid::SLACK)],

@@ -42,7 +42,7 @@ fn opacities_are_corrected() {
     let mut table: Vec<[f64; 2]> = (0..3000).map(|_| [next().powi(6), ratio(&mut next)]).collect();
     table.extend([[0.0, 0.3], [1.0, 0.3], [0.0, 0.5], [1.0, 0.5], [1e-20, 0.7], [0.999_999, 0.01]]);
     let kernel = Kernel {
-        modules: modules(&["number/elementary", "ray/opacity"]),
+        modules: modules(&["number/math", "ray/opacity"]),
         results: &["corrected(x[0], x[1])"],
         ..Kernel::default()
     };
@@ -81,7 +81,7 @@ fn encoded_colours_are_laid_over_a_background() {
     let table: Vec<[f64; 4]> =
         (0..2000).map(|_| [next(), next(), 0.05 + 0.95 * next(), 0.05 + 0.95 * next()]).collect();
     let kernel = Kernel {
-        modules: modules(&["number/elementary", "number/color", "ray/accumulator", "ray/blend_srgb"]),
+        modules: modules(&["number/math", "number/color", "ray/accumulator", "ray/blend_srgb"]),
         before: "let c = over_background(Front(vec3<real>(x[0] * x[2]), x[2]), premultiply(vec4<real>(x[1], x[1], x[1], x[3])));",
         results: &["c.r", "c.a"],
         ..Kernel::default()
@@ -116,7 +116,7 @@ fn phong() {
         let kernel = Kernel {
             modules: format!(
                 "{whole}{TYPES}{PLACE}{}",
-                modules(&["number/number", "number/elementary", "shading/phong", "shading/phong_of_samples"])
+                modules(&["number/arithmetic", "number/math", "shading/shading", "shading/shading_of_samples"])
             ),
             params: &[("ambient", 0.25), ("diffuse", 0.5), ("specular", 0.375), ("shininess", shininess)],
             vectors: &[("light", light)],
@@ -150,7 +150,7 @@ fn tones_silhouettes_and_exponents() {
         let x = dot(row);
         [0.25 - 0.125, 0.625 - 0.125].iter().all(|step: &f64| (x - step).abs() > 1e-4) && (x * x - 0.25).abs() > 1e-4
     });
-    let names = ["number/number", "number/elementary", "ray/opacity"];
+    let names = ["number/arithmetic", "number/math", "ray/opacity"];
     let rooms = ["toon", "toon_of_samples", "silhouette", "silhouette_of_samples", "view_opacity"]
         .map(|name| format!("interactive_volume_illustration/{name}"));
     let names: Vec<&str> = names.into_iter().chain(rooms.iter().map(String::as_str)).collect();
@@ -202,7 +202,7 @@ fn values_between_nodes() {
     let mut table: Vec<[f64; 1]> = (0..2000).map(|_| [2.0 * next() - 1.0]).collect();
     table.extend(at.map(|at| [at]));
     let kernel = Kernel {
-        modules: format!("const NODES = 6;\n{}", modules(&["number/number", "transfer/piecewise"])),
+        modules: format!("const NODES = 6;\n{}", modules(&["number/arithmetic", "transfer/piecewise"])),
         lists: &[(2, &list)],
         before: "let place = locate_value(x[0]);",
         results: &["real(place.node) + place.w", "place.alpha_u"],
@@ -330,7 +330,7 @@ fn parts_that_planes_leave() {
             && crossings.iter().all(|&t| !t.is_finite() || apart([t, -40.0]) && apart([t, 40.0]))
     });
     let kernel = Kernel {
-        modules: format!("const PLANES = 3;\n{}", modules(&["ray/ray", "ray/planes"])),
+        modules: format!("const PLANES = 3;\n{}", modules(&["ray/ray", "ray/plane"])),
         vectors: &[("box_low", [0.0; 3]), ("box_high", [15.0; 3])],
         lists: &[(7, &list)],
         before: "var ray: Ray;
@@ -368,7 +368,7 @@ fn caps_over_colours() {
     let mut next = random(25);
     let table: Vec<[f64; 3]> = (0..500).map(|_| [next(), next(), next()]).collect();
     let kernel = Kernel {
-        modules: format!("{TYPES}{PLACE}{}", modules(&["number/number", "surface/under_cap"])),
+        modules: format!("{TYPES}{PLACE}{}", modules(&["number/arithmetic", "surface/under_cap"])),
         before: "let covered = under_cap(Shaded(vec3<real>(x[0]), 1.0), Shaded(vec3<real>(x[1]), x[2]));",
         results: &["covered.rgb.y", "covered.alpha"],
         ..Kernel::default()

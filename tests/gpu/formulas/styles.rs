@@ -74,13 +74,8 @@ fn normals(next: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
 
 /// The text of lookups, without mip-maps.
 fn lookups(more: &[&str]) -> String {
-    let before = [
-        "number/number",
-        "number/elementary",
-        "number/bilinear",
-        "number/color",
-        "style_transfer_functions/sphere_map",
-    ];
+    let before =
+        ["number/arithmetic", "number/math", "number/bilinear", "number/color", "style_transfer_functions/sphere_map"];
     let stubs = "struct Ray { depth: real, }\nstruct Sample { k: i32, place: NodePlace, }
         struct Attributes { kappa: real, magnitude: real, }\nstruct NodePlace { node: i32, w: real, alpha_u: real, }
         const PERSPECTIVE = true;\nfn depth_of(ray: Ray, k: i32) -> real { return ray.depth; }\n";
@@ -97,7 +92,7 @@ fn lookups_of_spheres() {
     let table: Vec<[f64; 3]> =
         (0..styles.len()).flat_map(|j| normals(&mut next).into_iter().map(move |[x, y]| [j as f64, x, y])).collect();
     let kernel = Kernel {
-        modules: lookups(&["style_transfer_functions/no_mipmaps"]),
+        modules: lookups(&["style_transfer_functions/mipmaps_none"]),
         texels: &[(10, &data.texels)],
         words: &[(11, &data.maps)],
         before: "let c = sft(i32(x[0]), vec2<real>(x[1], x[2]), 0.0);",
@@ -208,11 +203,11 @@ fn mixes_of_styles() {
     for (mix, text) in [(Mix::Premultiplied, "mix_premultiplied"), (Mix::Printed, "mix_printed")] {
         let spheres = Spheres::new(&styles, mix);
         let text = format!("style_transfer_functions/{text}");
-        let used = ["style_transfer_functions/no_mipmaps", "style_transfer_functions/index", &text];
-        let rest = ["style_transfer_functions/blend", "style_transfer_functions/style_over_value"];
+        let used = ["style_transfer_functions/mipmaps_none", "style_transfer_functions/lookup_index", &text];
+        let rest = ["style_transfer_functions/lookup", "style_transfer_functions/lookup_over_value"];
         let patch = "struct NodePatch { below: NodePlace, above: NodePlace, w: real, alpha_u: real, }
             var<private> node_patch: NodePatch;\n";
-        let two = modules(&["transfer/over/styles_over_two"])
+        let two = modules(&["transfer/over/lookup_over_two"])
             .replace("fn style_between", "fn style_between_two")
             .replace("fn opacity_between", "fn opacity_between_two");
         let kernel = Kernel {
@@ -284,7 +279,7 @@ fn thresholds_of_contours() {
         modules: format!(
             "struct Attributes {{ kappa: real, magnitude: real, }}\n{}",
             modules(&[
-                "number/number",
+                "number/arithmetic",
                 "style_transfer_functions/contour_by_curvature",
                 "style_transfer_functions/contour_fade"
             ])
@@ -338,7 +333,7 @@ fn illustrative_transparency() {
     let mut table: Vec<[f64; 4]> = (0..3000).map(|_| [next().powi(3), next(), next(), next()]).collect();
     table.extend([[0.0, 0.5, 0.2, 0.3], [1.0, 0.5, 0.2, 0.3], [0.25, 0.1, 0.9, 0.0], [0.25, 1.0, 0.0, 0.0]]);
     let kernel = Kernel {
-        modules: modules(&["number/elementary", "style_transfer_functions/transparency_illustrative"]),
+        modules: modules(&["number/math", "style_transfer_functions/transparency_illustrative"]),
         results: &["opacity_share(x[0], x[1], x[2], x[3])"],
         ..Kernel::default()
     };
@@ -377,7 +372,7 @@ fn turns(gpu: &Gpu, turn: Turn, text: &str, table: &[[f64; 7]]) {
     let from = whole.find("// The angle between two normals").unwrap();
     let function = &whole[from..whole.find("// kappa is 0 unless").unwrap()];
     let kernel = Kernel {
-        modules: format!("{}{function}", modules(&["number/elementary", &format!("style_transfer_functions/{text}")])),
+        modules: format!("{}{function}", modules(&["number/math", &format!("style_transfer_functions/{text}")])),
         results: &["turn_along_ray(vec3<real>(x[0], x[1], x[2]), vec3<real>(x[3], x[4], x[5]), x[6])"],
         ..Kernel::default()
     };

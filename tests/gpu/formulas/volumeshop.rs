@@ -15,6 +15,14 @@ const U: f64 = 1.0 / (1u64 << 24) as f64;
 const TYPES: &str = "struct Sample { k: i32, }\nstruct Attributes { has_normal: bool, }
     struct Shaded { rgb: vec3<real>, alpha: real, }\n";
 
+/// The modules of sets by either operator, with room for four objects and their sets.
+fn sets_by(operators: Fuzzy) -> String {
+    let product = operators == Fuzzy::Product;
+    let constants = format!("const PRODUCT = {product};\nconst OBJECTS = 4;\nconst SETS = 4;\n");
+    let files = ["number/arithmetic", "volumeshop/fuzzy", "volumeshop/shares", "volumeshop/sets"];
+    TYPES.to_owned() + &constants + &modules(&files)
+}
+
 /// Rows of memberships: random ones, and corners.
 fn memberships() -> Vec<[f64; 6]> {
     let mut next = random(5);
@@ -31,22 +39,24 @@ fn memberships() -> Vec<[f64; 6]> {
 #[test]
 fn sets_by_either_operator() {
     let Some(gpu) = gpu() else { return };
-    for (operators, module) in [(Fuzzy::Zadeh, "volumeshop/zadeh"), (Fuzzy::Product, "volumeshop/product")] {
+    for operators in [Fuzzy::Zadeh, Fuzzy::Product] {
         let mut table = memberships();
         table.retain(|row| row[..4].iter().sum::<f64>() > 1.0 / 64.0);
         let kernel = Kernel {
-            modules: TYPES.to_owned() + &modules(&["number/number", module, "volumeshop/sets"]),
-            before: "let taken = taken_with(taken_with(taken_with(0.0, x[0]), x[1]), x[2]);
-                var sets = with_shared(with_shared(Sets(), vec3<real>(x[4]), x[0]), vec3<real>(x[5]), x[1]);
-                sets.union_mu = min(sets.shared_mu, 1.0);
-                sets = with_other(with_other(sets, vec3<real>(0.25), x[2]), vec3<real>(1.0), x[3]);
-                let all = combined(sets);",
+            modules: sets_by(operators),
+            before: "memberships = array<real, OBJECTS>(0.0, x[0], x[1], x[2]);
+                let shares = shares_beside();
+                sets[0] = ObjectSet(vec3<real>(x[4]), x[0], true);
+                sets[1] = ObjectSet(vec3<real>(0.25), x[2], false);
+                sets[2] = ObjectSet(vec3<real>(x[5]), x[1], true);
+                sets[3] = ObjectSet(vec3<real>(1.0), x[3], false);
+                let all = combined();",
             results: &[
                 "both(x[0], x[1])",
                 "either(x[0], x[1])",
                 "without(x[0], x[1])",
-                "share_of_background(taken)",
-                "share_of_each(taken)",
+                "shares.background",
+                "shares.of_each",
                 "all.rgb.y",
                 "all.alpha",
             ],
@@ -78,8 +88,10 @@ fn sets_by_either_operator() {
 fn nothing_together_is_transparent() {
     let Some(gpu) = gpu() else { return };
     let kernel = Kernel {
-        modules: TYPES.to_owned() + &modules(&["number/number", "volumeshop/zadeh", "volumeshop/sets"]),
-        before: "let all = combined(with_other(with_shared(Sets(), vec3<real>(x[0]), 0.0), vec3<real>(x[0]), 0.0));",
+        modules: sets_by(Fuzzy::Zadeh),
+        before: "sets[1] = ObjectSet(vec3<real>(x[0]), 0.0, true);
+            sets[2] = ObjectSet(vec3<real>(x[0]), 0.0, false);
+            let all = combined();",
         results: &["all.rgb.x", "all.alpha"],
         ..Kernel::default()
     };
@@ -103,10 +115,11 @@ fn ghosting_and_intersections() {
         IntersectionOpacity::Plus,
     ];
     let kernel = Kernel {
-        modules: TYPES.to_owned() + &modules(&["number/number", "volumeshop/ghosting", "volumeshop/meeting"]),
+        modules: TYPES.to_owned() + &modules(&["number/arithmetic", "volumeshop/ghosting", "volumeshop/intersections"]),
         before: "let e = enhancement_of(x[2], x[3]);
             let mean = mean_color(Shaded(vec3<real>(x[4]), x[0]), Shaded(vec3<real>(x[5]), x[1]), x[2]);
-            let none = mean_color(Shaded(vec3<real>(x[4]), 0.0), Shaded(vec3<real>(x[5]), 0.0), x[2]);",
+            let none = mean_color(Shaded(vec3<real>(x[4]), 0.0), Shaded(vec3<real>(x[5]), 0.0), x[2]);
+            let own = of_color(vec3<real>(x[4]), x[0], x[1]);",
         results: &[
             "opacity_of_both(0, x[0], x[1])",
             "opacity_of_both(1, x[0], x[1])",
@@ -120,17 +133,18 @@ fn ghosting_and_intersections() {
             "mean.rgb.z",
             "mean.alpha",
             "none.alpha",
+            "own.alpha",
         ],
         ..Kernel::default()
     };
     let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
-        let mut all = [0.0; 12];
+        let mut all = [0.0; 13];
         for (found, preset) in all.iter_mut().zip(presets) {
             *found = intersections::opacity(preset, a, b);
         }
         let enhancement = spared(c, d);
         let mean = intersections::mean(([e; 3], a), ([f; 3], b)).unwrap_or([0.0; 3]);
-        all[7..].copy_from_slice(&[enhancement, factor(e, enhancement), mean[2], c, 0.0]);
+        all[7..].copy_from_slice(&[enhancement, factor(e, enhancement), mean[2], c, 0.0, a * b]);
         all
     };
     let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
@@ -150,15 +164,19 @@ fn pictures_of_intersections() {
         table.extend([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]]);
         let at = format!("let found = intersection_at(2, {}, {}, x[0], x[1]);", size[0], size[1]);
         let kernel = Kernel {
-            modules: modules(&["number/number", "number/bilinear", "volumeshop/intersection_picture"]),
+            modules: modules(&["number/arithmetic", "number/bilinear", "volumeshop/intersection_picture"]),
             lists: &[(25, pixels.as_flattened())],
             before: &at,
-            results: &["found.r", "found.g", "found.b", "found.a"],
+            results: &["found.r", "found.g", "found.b", "found.a", "share_of_range(x[0], 0.25, 0.5)"],
             ..Kernel::default()
         };
         // Two pixels of another picture come first.
         let picture = IntersectionPicture { size, pixels: pixels[2..].to_vec(), has_opacity: true };
-        let found = errors(&gpu, &kernel, &table, |&row| picture.at(row), |_, _, _| 1.0);
+        let truth = |&[x, y]: &[f64; 2]| {
+            let [r, g, b, a] = picture.at([x, y]);
+            [r, g, b, a, (x - 0.25) / 0.5]
+        };
+        let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
         println!("{size:?}: f64 {:.1e}, f32 {:.1e}", found[0], found[1]);
         assert!(found[0] <= 1e-15 && found[1] <= 32.0 * U, "{size:?}: {found:?}");
     }
@@ -190,11 +208,11 @@ fn dabs_of_intersections() {
     let kernel = Kernel {
         modules: TYPES.to_owned()
             + &modules(&[
-                "number/number",
-                "number/elementary",
+                "number/arithmetic",
+                "number/math",
                 "number/bilinear",
                 "volumeshop/intersection_picture",
-                "volumeshop/dabs",
+                "volumeshop/intersections_dabs",
             ]),
         lists: &[(25, &numbers)],
         before: "let top = painted_by_all(Shaded(vec3<real>(x[0], x[4], x[5]), x[1]), 1, 2, vec2<real>(x[2], x[3]));",

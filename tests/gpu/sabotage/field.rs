@@ -32,7 +32,7 @@ pub(crate) fn faults() -> Vec<Fault> {
             "value",
         ),
         fault(
-            "field/gradient/tensor",
+            "field/gradient/tensor_gradient",
             "s1 * w[1].value[j], s0 * w[1].first[j]",
             "s0 * w[1].first[j], s1 * w[1].value[j]",
             kernel("bspline"),
@@ -63,7 +63,7 @@ pub(crate) fn faults() -> Vec<Fault> {
             "curvature",
         ),
         fault(
-            "field/hessian/tensor",
+            "field/hessian/tensor_hessian",
             "vec3<real>(s01 * slope, s10 * slope",
             "vec3<real>(s10 * slope, s01 * slope",
             curved("analytic", "bspline"),
@@ -82,9 +82,9 @@ pub(crate) fn faults() -> Vec<Fault> {
         // Surfaces: the last share, the corners, the step.
         fault("ray/surface", "return hit + 0.5 - real(k);", "return 1.0;", surface(""), "opacity"),
         fault("ray/surface", "i32(ceil(hit)) - 1", "i32(ceil(hit))", surface(""), "opacity"),
-        fault("surface/trilinear_cell", "two / 3.0", "one / 3.0", surface(""), "depth"),
+        fault("surface/first_root_trilinear", "two / 3.0", "one / 3.0", surface(""), "depth"),
         fault("surface/traversal", "face = real(behind);", "face = real(behind) + 0.5;", surface(""), "depth"),
-        fault("surface/stepped_cell", "bracketed(start, at_start, end, at_end)", "end", stepped(), "depth"),
+        fault("surface/first_root_stepped", "bracketed(start, at_start, end, at_end)", "end", stepped(), "depth"),
     ]
 }
 

@@ -33,8 +33,8 @@ fn faults_of_objects_are_noticed() {
                 ("vec2(max(left.x, selection_range_0.x), min(left.y, selection_range_0.y));", "left;"),
                 ("moved_x_0() * g.x + moved_y_0() * g.y", "moved_x_0() * g.y + moved_y_0() * g.x"),
                 // Meetings.
-                ("let wins = set_0.mu >= set_1.mu;", "let wins = set_0.mu < set_1.mu;"),
-                ("vec2<real>(part_sample_1.s, part_sample_0.s)", "vec2<real>(part_sample_0.s, part_sample_1.s)"),
+                ("let wins = found[s].mu >= found[o].mu;", "let wins = found[s].mu < found[o].mu;"),
+                ("(value_of_object(o), value_of_object(s))", "(value_of_object(s), value_of_object(o))"),
                 // Runs of samples.
                 ("return Span(min(span.end, range.x - 1), span.is_mixed);", "return Span(span.end, span.is_mixed);"),
             ],
@@ -56,7 +56,7 @@ fn faults_of_objects_are_noticed() {
                 ("min(weight, seeds_of_set[halo] * factor)", "seeds_of_set[halo] * factor"),
                 ("join_seeds(weight, factor);", "join_seeds(weight, 1.0);"),
                 ("seeds_of_set[halo] = 0.0;", ""),
-                ("    sow_part_1(k, taken_1 * share);\n", ""),
+                ("    sow_part_1(k, selection_share(2));\n", ""),
                 ("sow_beside_0(k)", "sow_beside_2(k)"),
                 ("clamp(pixel + FUNNEL_MARGIN, vec2(0)", "clamp(pixel, vec2(0)"),
             ],

@@ -1,4 +1,5 @@
 // Central differences on the voxels, then trilinear interpolation: the papers' gradient ([REC-2]).
+// Twin: reference/src/field/gradient/central.rs
 
 // The difference of two rows at the two corners of a cell, interpolated along x.
 fn difference_of_rows(down: vec3<i32>, up: vec3<i32>, wx: real) -> real {

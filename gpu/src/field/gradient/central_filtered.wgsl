@@ -1,5 +1,6 @@
 // Central differences on the voxels, then trilinear interpolation, by the texture unit: the difference of interpolated
 // numbers a voxel before and a voxel after is that of the voxels, interpolated ([REC-2]).
+// Twin: reference/src/field/gradient/central.rs
 
 // Along one axis, given by its unit step.
 fn difference_along(at: Place, step: vec3<real>) -> real {

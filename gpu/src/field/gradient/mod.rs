@@ -28,11 +28,11 @@ pub(crate) fn add(
             add_central(shader, measured);
             shader.add(&[module!("by_central")]);
         }
-        GradientEstimator::Analytic if kernel == Kernel::Trilinear => shader.add(&[module!("trilinear")]),
-        GradientEstimator::Analytic => shader.add(&[module!("tensor"), module!("separable")]),
+        GradientEstimator::Analytic if kernel == Kernel::Trilinear => shader.add(&[module!("trilinear_gradient")]),
+        GradientEstimator::Analytic => shader.add(&[module!("tensor_gradient"), module!("separable")]),
         GradientEstimator::Sobel => {
             add_voxels(shader, measured);
-            shader.add(&[kernel::TENSOR, module!("tensor"), module!("sobel")]);
+            shader.add(&[kernel::TENSOR, module!("tensor_gradient"), module!("sobel")]);
         }
         GradientEstimator::Regression => {
             add_voxels(shader, measured);
@@ -50,7 +50,7 @@ pub(crate) fn add(
             }
         }
     }
-    shader.add(&[module!("gradient")]);
+    shader.add(&[module!("normal")]);
     let block = &mut shader.block;
     for (name, column) in [("to_world_x", 0), ("to_world_y", 1), ("to_world_z", 2)] {
         block.vector(name, scales.to_world.col(column));

@@ -1,4 +1,5 @@
 // 4D linear regression on the voxels, then trilinear interpolation ([REC-2], [STIP-1]).
+// Twin: reference/src/field/gradient/regression.rs
 
 // Weights of the 27 voxels around one, x fastest, for the derivative along each index axis, for each of 64 cases. A case is
 // what neighbours a voxel has along x, plus 4 times that along y, plus 16 times that along z.

@@ -1,4 +1,5 @@
 // Sobel's operator on the voxels, then trilinear interpolation ([REC-2]).
+// Twin: reference/src/field/gradient/sobel.rs
 
 // Weights of voxels cell - 1 ... cell + 2: a central difference, and smoothing with (1, 2, 1)/4, which is dropped at the
 // border of an axis.

@@ -1,4 +1,5 @@
 // Voxels in the units of the numbers, for estimators that do not read the kernel's numbers.
+// Glue: A buffer.
 
 @group(1) @binding(1) var voxels: texture_3d<f32>;
 

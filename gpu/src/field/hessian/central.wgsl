@@ -1,5 +1,6 @@
 // Central differences of the central gradient on the voxels, then trilinear interpolation ([REC-3]). Along an axis the
 // interpolated differences have six taps, like a kernel.
+// Twin: reference/src/field/hessian/central.rs
 
 // A derivative at a voxel, as voxels of its line and their weights.
 struct Difference {

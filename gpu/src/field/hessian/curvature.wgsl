@@ -1,4 +1,5 @@
 // Curvature of the iso-surface through a place ([CUR-1], [CUR-2]).
+// Twin: reference/src/field/curvature.rs
 
 // G in the tangent plane: -H/|g|, turned for values that rise outwards. P drops out of forms in tangent vectors.
 struct Shape {

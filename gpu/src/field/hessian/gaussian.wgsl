@@ -1,4 +1,5 @@
 // Derivatives of the cubic B-spline through the smoothed voxels ([REC-3]).
+// Twin: reference/src/field/hessian/gaussian.rs
 
 @group(1) @binding(21) var smoothed: texture_3d<f32>;
 

@@ -8,7 +8,7 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{HessianEstimator, Object, Outside};
 
 /// Hessians of separable kernels.
-const TENSOR: Module = module!("tensor");
+const TENSOR: Module = module!("tensor_hessian");
 
 /// ‖Pv‖ at which the direction Pv is lost to rounding ([CUR-2]).
 fn no_direction(precision: Precision) -> f64 {

@@ -1,4 +1,5 @@
 // First and second derivatives of one field, which belong together ([REC-3], [CUR-1]).
+// Glue: A type.
 
 struct Second {
     // Along the index axes.

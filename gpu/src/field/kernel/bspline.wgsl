@@ -1,4 +1,5 @@
 // The cubic B-spline ([REC-1]).
+// Twin: reference/src/field/kernel/bspline.rs
 
 // t^3/6 and (1 + 3t + 3t^2 - 3t^3)/6: the pieces of the spline from outside in, and their derivatives.
 fn bspline_outer(t: real) -> real {

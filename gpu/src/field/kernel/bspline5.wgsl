@@ -1,4 +1,5 @@
 // The quintic B-spline, of prefiltered coefficients ([REC-1]).
+// Twin: reference/src/field/kernel/bspline5.rs
 
 const KERNEL_TAPS = 6;
 

@@ -1,4 +1,5 @@
 // The cubic B-spline as the kernel: of prefiltered coefficients, or of the voxels, which it smooths ([REC-1]).
+// Twin: reference/src/field/kernel/bspline.rs
 
 const KERNEL_TAPS = 4;
 

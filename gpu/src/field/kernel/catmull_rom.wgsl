@@ -1,4 +1,5 @@
 // Catmull-Rom: interpolates the voxels, exact for quadratics ([REC-1]).
+// Twin: reference/src/field/kernel/catmull_rom.rs
 
 const KERNEL_TAPS = 4;
 

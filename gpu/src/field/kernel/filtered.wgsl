@@ -1,4 +1,5 @@
 // Interpolation by the texture unit, whose weights have about 8 bits ([GPU-2]).
+// Glue: The texture unit.
 
 @group(1) @binding(8) var texture_unit: sampler;
 

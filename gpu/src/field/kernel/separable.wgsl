@@ -1,4 +1,5 @@
 // Values by a kernel that weighs numbers along each axis ([REC-1]).
+// Glue: The value of samples by the kernel's taps.
 
 // The kernel's taps at a place, for each axis.
 fn taps_at(at: Place) -> array<Taps, 3> {

@@ -1,5 +1,6 @@
 // Sums of a separable kernel over the numbers around a cell ([REC-1]). They run over differences to the number at the
 // cell's first voxel, so a constant field has exactly its value, and derivatives that are exactly 0.
+// Twin: reference/src/field/tensor.rs
 
 // Weights of a kernel's taps along one axis: for the value and for its derivatives. Kernels of four taps use the first four.
 struct Taps {

@@ -1,4 +1,5 @@
 // Trilinear interpolation, the papers' kernel ([REC-1]).
+// Twin: reference/src/field/kernel/trilinear.rs
 
 // The value at a place: three nested interpolations, along x, then y, then z.
 fn value_at(at: Place) -> real {

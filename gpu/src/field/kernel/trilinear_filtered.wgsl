@@ -1,4 +1,5 @@
 // Trilinear interpolation, the papers' kernel, by the texture unit ([REC-1]).
+// Twin: reference/src/field/kernel/trilinear.rs
 
 // The value at a place.
 fn value_at(at: Place) -> real {

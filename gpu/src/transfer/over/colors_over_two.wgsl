@@ -1,4 +1,5 @@
 // Colours over two quantities ([STF-4]).
+// Glue: A choice of the function.
 
 fn node_color(ray: Ray, sample: Sample, a: Attributes, shaded: Shaded) -> Shaded {
     var rgb = color_at(node_patch.below);

@@ -1,4 +1,5 @@
 // Numbers on grids beside the volume, trilinear between voxels ([STF-4]).
+// Glue: Numbers on any grid.
 
 @group(1) @binding(16) var<storage, read> grid_numbers: array<real>;
 

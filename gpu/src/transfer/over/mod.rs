@@ -18,7 +18,7 @@ use drypoint_scene::volume::{Anatomy, Volume};
 /// The colours of a place between nodes.
 pub(crate) const COLORS: Module = module!("colors_over_two");
 /// The styles of a place between nodes.
-pub(crate) const STYLES: Module = module!("styles_over_two");
+pub(crate) const STYLES: Module = module!("lookup_over_two");
 
 /// Adds a function over two quantities, after everything that samples are asked for. Both quantities are asked first, and
 /// the rest only where α_u > 0.
@@ -66,13 +66,13 @@ pub(crate) fn add(
             (Axis::Volume(_), Some(further)) => {
                 let (first, dims) = (numbers.len(), further.volume.dims());
                 further.append(&mut numbers, inputs);
-                shader.add(&[module!("grid_numbers"), module!("further_volume")]);
+                shader.add(&[module!("grid_numbers"), module!("other_volume")]);
                 match further.volume.mask() {
                     None => call("further_value", first, dims, "sample.position"),
                     Some(mask) => {
                         let first_word = masks.len();
                         masks.extend(mask::words(mask, dims));
-                        shader.add(&[module!("further_masked")]);
+                        shader.add(&[module!("other_volume_masked")]);
                         call("further_value_unmasked", first, dims, &format!("{first_word}, sample.position"))
                     }
                 }
@@ -157,7 +157,7 @@ fn coordinate(
     let number = match &rows.over[axis] {
         Axis::Value => "sample.s".to_owned(),
         Axis::GradientMagnitude => {
-            shader.add(&[module!("gradient_magnitude")]);
+            shader.add(&[module!("sample_quantities")]);
             if rows.normalized { "magnitude_in_range(a)" } else { "magnitude_of_gradient(a)" }.to_owned()
         }
         Axis::K1 => "a.principal.x".to_owned(),
@@ -168,8 +168,8 @@ fn coordinate(
         // On a cut there is no curvature ([RAY-8]).
         Axis::AlongView => "select(a.kappa, real(0.0), cut_plane >= 0 && sample.k == cut_k)".to_owned(),
         Axis::Distance(p) => {
-            if !shader.modules.contains(&module!("point_distance")) {
-                shader.add(&[module!("point_distance")]);
+            if !shader.modules.contains(&module!("point")) {
+                shader.add(&[module!("point")]);
                 add_columns(shader, ["world_axis_x", "world_axis_y", "world_axis_z"], grid.axes().to_cols_array_2d());
             }
             let point = ["point_across", "point_down"][axis];
@@ -188,7 +188,7 @@ fn coordinate(
 
 /// Adds the labels of positions, once.
 pub(crate) fn add_label_lookup(shader: &mut Shader, shot: &Shot, inputs: &ObjectInputs<'_>) -> Result<(), GpuError> {
-    if shader.modules.contains(&module!("label")) {
+    if shader.modules.contains(&module!("labels")) {
         return Ok(());
     }
     let labels = inputs.data.labels.ok_or(GpuError::Material)?;
@@ -207,10 +207,10 @@ fn add_columns(shader: &mut Shader, names: [&'static str; 3], columns: [[f64; 3]
 
 /// Adds the ids of voxels on their own grid ([STF-13]).
 fn add_labels(shader: &mut Shader, labels: &LabelVolume, own: &Grid, lookup: LabelLookup) {
-    shader.add(&[module!("label")]);
+    shader.add(&[module!("labels")]);
     shader.add(&[match lookup {
-        LabelLookup::Nearest => module!("label_nearest"),
-        LabelLookup::Smooth => module!("label_smooth"),
+        LabelLookup::Nearest => module!("labels_nearest"),
+        LabelLookup::Smooth => module!("labels_smooth"),
     }]);
     let dims = own.dims();
     let bits = 8 * labels.bytes() / own.len();
@@ -229,8 +229,8 @@ fn add_labels(shader: &mut Shader, labels: &LabelVolume, own: &Grid, lookup: Lab
 
 /// Adds the map from the data's grid to that of the labels.
 fn add_map(shader: &mut Shader, data: &Grid, own: &Grid) {
-    let Some(map) = OtherGrid::new(data, own) else { return shader.add(&[module!("label_same_grid")]) };
-    shader.add(&[module!("label_other_grid")]);
+    let Some(map) = OtherGrid::new(data, own) else { return shader.add(&[module!("labels_same_grid")]) };
+    shader.add(&[module!("labels_other_grid")]);
     let (linear, offset) = map.parts();
     add_columns(shader, ["to_labels_x", "to_labels_y", "to_labels_z"], linear.to_cols_array_2d());
     let ([low, high], [reach_low, reach_high]) = (map.own_box(), map.reach());

@@ -1,4 +1,5 @@
 // A transfer function over two quantities ([STF-4]; 4.2): rows of nodes along a first quantity, stacked along a second one.
+// Twin: reference/src/transfer/plane.rs
 
 // A sample's coordinate along an axis: a number, or the id of a label.
 struct Coordinate {

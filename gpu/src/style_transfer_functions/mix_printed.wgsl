@@ -1,9 +1,0 @@
-// The mix of straight colour and opacity as 4.1 prints it ([STF-3]): a transparent style still lends its colour.
-
-fn to_mix(c: vec4<real>) -> vec4<real> {
-    return unpremultiply(c);
-}
-
-fn from_mix(c: vec4<real>) -> vec4<real> {
-    return premultiply(c);
-}
