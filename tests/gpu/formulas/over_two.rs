@@ -136,8 +136,8 @@ fn labels_at_positions() {
             ids.chunks(2).map(|pair| u32::from(pair[0]) | u32::from(*pair.get(1).unwrap_or(&0)) << 16).collect();
         let dims = grid.dims();
         let map = OtherGrid::new(&data, grid);
-        let on = if lookup == LabelLookup::Nearest { "label_nearest" } else { "label_smooth" };
-        let place = if map.is_some() { "label_other_grid" } else { "label_same_grid" };
+        let on = if lookup == LabelLookup::Nearest { "labels_nearest" } else { "labels_smooth" };
+        let place = if map.is_some() { "labels_other_grid" } else { "labels_same_grid" };
         let mut vectors = vec![
             ("label_last_cell", dims.map(|n| (n.max(2) - 2) as f64)),
             ("label_long_axes", dims.map(|n| if n == 1 { 0.0 } else { 1.0 })),

@@ -200,7 +200,7 @@ fn mixes_of_styles() {
         .collect();
     // A value just below a node can round to the whole way.
     table.push([0.0, 1.0, 1.0, 1.0, 0.5, 0.2, 0.3]);
-    for (mix, text) in [(Mix::Premultiplied, "mix_premultiplied"), (Mix::Printed, "mix_printed")] {
+    for (mix, text) in [(Mix::Premultiplied, "lookup_mix_premultiplied"), (Mix::Printed, "lookup_mix_printed")] {
         let spheres = Spheres::new(&styles, mix);
         let text = format!("style_transfer_functions/{text}");
         let used = ["style_transfer_functions/mipmaps_none", "style_transfer_functions/lookup_index", &text];
@@ -361,7 +361,9 @@ fn turns_along_a_ray() {
     }
     table.push([0.6, 0.0, 0.8, 0.6, 0.0, 0.8, 0.5]);
     table.push([0.6, 0.0, 0.8, -0.6, 0.0, -0.8, 0.5]);
-    for (turn, text) in [(Turn::OfNormals, "turn_of_normals"), (Turn::OfLines, "turn_of_lines")] {
+    for (turn, text) in
+        [(Turn::OfNormals, "curvature_along_ray_of_normals"), (Turn::OfLines, "curvature_along_ray_of_lines")]
+    {
         turns(&gpu, turn, text, &table);
     }
 }
