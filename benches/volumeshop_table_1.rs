@@ -9,6 +9,7 @@ use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::Job;
 use drypoint::reference::ray::Renderer;
 use drypoint::scene::file::{Overrides, load};
+use drypoint::scene::shot::Shot;
 use drypoint::scene::space::Grid;
 use drypoint::scene::view::View;
 use drypoint::scene::volume::write::write_nrrd;
@@ -45,8 +46,9 @@ fn table(folder: &Path) -> Result<(), String> {
     let mut renderers: Vec<Renderer<'_>> =
         jobs.iter().map(Job::renderer).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     let mut samples = vec![0u64; PAPER.len()];
+    let shots: Vec<Shot> = jobs.iter().map(Job::shot).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     measure(&views, |i, view| {
-        let shot = jobs[i].shot().map_err(|e| e.to_string())?.seen_from(view.clone());
+        let shot = shots[i].seen_from(view.clone());
         renderers[i].turn(&shot).map_err(|e| e.to_string())?;
         let start = Instant::now();
         let (picture, counts) = renderers[i].again(&|_| ());
@@ -68,8 +70,9 @@ fn on_card(jobs: &[Job], views: &[View]) -> Result<(), String> {
     println!("\nOn {}:\n", gpu.describe());
     let mut frames: Vec<GpuFrames<'_>> =
         jobs.iter().map(|job| GpuFrames::new(job, &gpu)).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
+    let shots: Vec<Shot> = jobs.iter().map(Job::shot).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     measure(views, |i, view| {
-        let shot = jobs[i].shot().map_err(|e| e.to_string())?.seen_from(view.clone());
+        let shot = shots[i].seen_from(view.clone());
         frames[i].turn(&shot).map_err(|e| e.to_string())?;
         let start = Instant::now();
         let on_card = frames[i].show().map_err(|e| e.to_string())?;

@@ -1,7 +1,7 @@
 //! Pictures of jobs on graphics cards.
 
 use crate::Failure;
-use crate::job::{Job, KnobVariant, render_failure};
+use crate::job::{Job, KnobVariant, render_failure, room_for_picture};
 use crate::stippling::PointTest;
 use drypoint_gpu::{CardInputs, Renderer};
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
@@ -226,6 +226,7 @@ impl<'a> GpuFrames<'a> {
 /// Measures the data of a shot of a job, which needs no renderer.
 fn measured(job: &Job, scene: &Scene, plan: &Plan, shot: &Shot) -> Result<Vec<Measured>, Failure> {
     job.room_for_preparing(scene, plan)?;
+    room_for_picture(scene, 0)?;
     measure(shot, &job.inputs(shot)).map_err(|error| render_failure(&error, scene))
 }
 

@@ -64,7 +64,7 @@ use objects::{Given, Objects};
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
 use room::{no_room_for_content, room_for_halos, room_for_table};
-pub(crate) use room::{no_room_for_pixels, room, room_for_passes};
+pub(crate) use room::{no_room_for_pixels, room, room_for_passes, room_for_picture};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ pub struct Job {
     target: RenderTarget,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
-    /// The data that the function of the volume, or of the colours of dots, and the material name.
+    /// The data that the material names, and the function of the volume or of the colours of dots.
     pub(crate) assets: Assets,
     /// The meshes that the scene names, in the world.
     pub(crate) meshes: Vec<TriangleMesh>,
@@ -199,7 +199,7 @@ impl Job {
             plan.warn_step(step * stretch, volume.grid().voxel());
         }
         something_is_drawn(&scene, target)?;
-        // What the scene leaves to the data, and what it names; all faults are reported together.
+        // Data that the scene names, and settings that it leaves to them. All faults are reported together.
         let (mut counts, mut failures) = (Counts::default(), Vec::new());
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
         let assets = Assets::load(&mut scene, &mut plan, &volume, None, &mut counts, &mut failures);
@@ -346,16 +346,14 @@ impl Job {
     ) -> Result<Renderer<'a>, Failure> {
         self.room_for_preparing(scene, plan)?;
         let renderer = make(shot, self.inputs(shot)).map_err(|error| render_failure(&error, scene))?;
-        // The picture's channels, and as much again for encoding them, must fit in the remaining memory.
-        let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
-        room(scene, 2 * 8 * channels + renderer.bytes_of_refinement())?;
+        room_for_picture(scene, renderer.bytes_of_refinement())?;
         room_for_halos(scene, renderer.bytes_of_halos())?;
         Ok(renderer)
     }
 
     /// Checks that there is memory for the passes over voxels and for the table of the function.
     pub(crate) fn room_for_preparing(&self, scene: &Scene, plan: &Plan) -> Result<(), Failure> {
-        room_for_passes(self, plan)?;
+        room_for_passes(scene, &self.volume, plan)?;
         room_for_table(scene)
     }
 

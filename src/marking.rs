@@ -31,7 +31,7 @@ impl<'a> Marking<'a> {
     /// # Errors
     /// Same errors as [`Stippling::new`] and [`Stroking::new`].
     pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
-        room_for_passes(job, &job.plan)?;
+        room_for_passes(&job.scene, &job.volume, &job.plan)?;
         let (scene, target) = (&job.scene, job.target());
         let shown = target != RenderTarget::Picture || job.shows_beauty();
         let stippled = shown && target.has_points() && scene.stipples.is_some();

@@ -5,8 +5,8 @@
 //! those of the shot, and what only voxels can tell comes measured, in a
 //! [`Measured`](drypoint_scene::measured::Measured).
 //!
-//! Shaders are put together from modules, `.wgsl` files. Each has the stem of the Rust file with the same formula, and names
-//! it. The list of modules follows from the shot, so a scene without an effect has no line, no binding and no pass of it
+//! Shaders are put together from modules, `.wgsl` files. Each names its Rust twin, whose stem it has, or says that it is
+//! glue. The list of modules follows from the shot, so a scene without an effect has no line, no binding and no pass of it
 //! ([GPU-4]). One text runs with `real = f32` and, where the adapter has it, `real = f64`.
 
 mod block;

@@ -3,7 +3,7 @@
 /// A WGSL file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Module {
-    /// Its path in the crate, without suffix.
+    /// Its path from the folder of the source file that names it, without suffix.
     pub(crate) name: &'static str,
     pub(crate) text: &'static str,
 }

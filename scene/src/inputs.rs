@@ -10,14 +10,15 @@ use crate::volume::{Selection, Volume};
 /// The data that a shot names.
 #[derive(Clone, Debug)]
 pub struct Inputs<'a> {
-    /// The data of `[volume]`: those of the first of [`Shot::objects`](crate::shot::Shot::objects).
+    /// The data of `[volume]`, the first of [`Shot::objects`](crate::shot::Shot::objects).
     pub main: ObjectData<'a>,
     /// The data of the other objects, in their order.
     pub parts: Vec<ObjectData<'a>>,
     /// The memberships of each of [`Combination::selections`](crate::shot::Combination::selections) that is
     /// [`Voxels`](crate::shot::Membership::Voxels).
     pub selections: Vec<Option<&'a Selection>>,
-    /// The picture of each of [`Combination::intersections`](crate::shot::Combination::intersections) whose colour is one.
+    /// The picture of each of [`Combination::intersections`](crate::shot::Combination::intersections) that is coloured by a
+    /// picture.
     pub pictures: Vec<Option<&'a IntersectionPicture>>,
     /// The meshes, in the order of the shot's, in the world ([VS-12]).
     pub meshes: &'a [TriangleMesh],

@@ -1,6 +1,5 @@
 //! Memory checks of a job, before anything large is allocated. A failure names the key responsible.
 
-use super::Job;
 use crate::Failure;
 use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::plan::Plan;
@@ -54,6 +53,13 @@ pub(super) fn room_for_halos(scene: &Scene, bytes: u64) -> Result<(), Failure> {
     })
 }
 
+/// Checks that the memory budget allows the picture of a scene: its channels, as much again for encoding them, and `more`
+/// bytes a pixel.
+pub(crate) fn room_for_picture(scene: &Scene, more: usize) -> Result<(), Failure> {
+    let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
+    room(scene, 2 * size_of::<f64>() * channels + more)
+}
+
 /// Checks that the memory budget allows `bytes` bytes a pixel.
 pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;
@@ -78,19 +84,19 @@ pub(crate) fn no_room_for_pixels(scene: &Scene, size: [usize; 2], no_room: &NoRo
 }
 
 /// Checks that there is memory for the per-voxel passes before rays, points and lines.
-pub(crate) fn room_for_passes(job: &Job, plan: &Plan) -> Result<(), Failure> {
-    let voxels = job.volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
+pub(crate) fn room_for_passes(scene: &Scene, volume: &Volume, plan: &Plan) -> Result<(), Failure> {
+    let voxels = volume.dims().into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));
     let each = plan.passes.iter().map(|need| (need, voxels.saturating_mul(need.pass.bytes_a_voxel())));
     // Passes are kept one after another, so their sum has to fit.
     let mut needed = 0u64;
     for (need, bytes) in each {
         needed = needed.saturating_add(bytes);
         memory::room(needed).map_err(|no_room| {
-            let [nx, ny, nz] = job.volume.dims();
+            let [nx, ny, nz] = volume.dims();
             let (effect, pass) = (&need.effect, need.pass.name());
             let what = format!("{effect}: {pass} of {nx} × {ny} × {nz} voxels need {no_room}");
             let remedy = "leave out what asks for it (`drypoint plan` shows what does), or make the volume smaller";
-            Failure::new(what, job.scene.given.position(&need.key), remedy)
+            Failure::new(what, scene.given.position(&need.key), remedy)
         })?;
     }
     Ok(())

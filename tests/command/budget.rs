@@ -257,7 +257,7 @@ fn objects_without_end() {
     folder.good("render scene.toml --size 1x1 --set picture.samples=1 --set object.0.scale=20 -o a.png");
     // An object that no key of its own makes large.
     folder.scene("[[object]]\nname = \"part\"\nvalue = [[90, 0], [160, 1]]\n");
-    let said = folder.refused("render scene.toml --size 2x2 --set sampling.step=\"1e-5 voxels\" -o b.png");
+    let said = folder.refused("render scene.toml --size 2x2 --set sampling.step=1e-5 -o b.png");
     assert!(said.starts_with("error: object 0 is about "), "{said}");
     assert!(said.contains("key sampling.step\n  try: make it longer\n"), "{said}");
 }

@@ -1,5 +1,5 @@
 // N in eye space; a sample without a normal has N = v ([PREC-3]).
-// Glue: What samples are asked for.
+// Glue: Queries of samples.
 
 fn eye_normal(ray: Ray, a: Attributes) -> vec3<real> {
     if (!a.has_normal) {

@@ -1,5 +1,5 @@
 // The iso-surface, at which a ray ends ([HATCH-14]).
-// Glue: What rays meet.
+// Glue: Ends of rays.
 
 // Composites the surface, of opacity 1, at its own depth.
 fn meet_surface(ray: Ray, seen: Front) -> Front {

@@ -62,8 +62,8 @@ fn by_name(text: &str) -> BTreeMap<&str, Declaration<'_>> {
     declarations(text).map(|declaration| (declaration.name, declaration)).collect()
 }
 
-/// Finds the declarations that a name leads to, and whether each is the part's own: its text differs, or it uses one that is
-/// its own or a number of the scene. All numbers of the scene are in one list, which is not attached.
+/// Finds the declarations that a name leads to. A declaration is the part's own if its text differs, or if it uses one that
+/// is. The list of the scene's numbers counts as the part's own, and is not attached.
 fn find_own<'t>(
     name: &str,
     all: &BTreeMap<&'t str, Declaration<'t>>,

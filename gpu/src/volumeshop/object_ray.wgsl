@@ -1,7 +1,7 @@
 // The objects on a ray: what the sets at a sample make of its colour and opacity ([VS-2], [VS-3]).
 // Twin: reference/src/ray/composite/object_ray.rs
 
-// What is found of an object at a sample.
+// Attributes, colour and memberships of an object at a sample.
 struct Found {
     a: Attributes,
     // Straight, linear.
@@ -20,7 +20,7 @@ struct Together {
     a: Attributes,
 }
 
-// What was found of each object: of the background, and of each part.
+// The findings of the background, and of each part.
 var<private> found: array<Found, OBJECTS>;
 var<private> shares: Shares;
 // The largest mu up to here.
@@ -42,8 +42,8 @@ fn keep_found(object: i32, of_object: Found, shares: bool) {
     sets[object] = ObjectSet(of_object.rgb, of_object.mu, shares);
 }
 
-// Whether an object has the largest set up to here; of equal ones it is the last.
-fn is_largest(object: i32) -> bool {
+// Takes an object as the largest set up to here if it is; of equal ones the last. Returns whether it was taken.
+fn take_if_largest(object: i32) -> bool {
     let mu = found[object].mu;
     let is = mu > 0.0 && mu >= largest_mu;
     largest_mu = select(largest_mu, mu, is);

@@ -1,7 +1,7 @@
 // Intersections of objects on a ray (eqs. 6 and 7; [VS-4]).
 // Twin: reference/src/ray/composite/object_ray.rs
 
-// What intersections take out of each object.
+// The memberships that intersections take out of each object.
 var<private> taken_out: array<real, OBJECTS>;
 
 // The colour and the membership of intersection i, of selection s with object o.

@@ -163,7 +163,7 @@ fn sets_of_parts(text: &mut String, parts: &[DrawnPart]) {
     };
     write_function(text, "find_parts(k: i32)", parts.iter().map(find), None);
     let of = |is_ghost: bool| parts.iter().rev().filter(move |drawn| drawn.is_ghost == is_ghost);
-    let larger = |drawn: &DrawnPart| format!("if (is_largest({0})) {{ object = {0}; }}", drawn.object());
+    let larger = |drawn: &DrawnPart| format!("if (take_if_largest({0})) {{ object = {0}; }}", drawn.object());
     let larger = of(true).chain(of(false)).map(larger);
     let larger = std::iter::once("var object = 0;".to_owned()).chain(larger);
     write_function(text, "largest_object() -> i32", larger, Some("object"));

@@ -12,7 +12,8 @@ struct ObjectSet {
 // The sets at a sample: those of objects, and those of intersections.
 var<private> sets: array<ObjectSet, SETS>;
 
-// Sum c mu / sum mu, and the membership of the union. Sets that share come first. A place without members is transparent.
+// Sum c mu / sum mu, and the membership of the union. Sets that share come first: the twin sums colours in the order of sets,
+// which differs in rounding alone. A place without members is transparent.
 fn combined() -> Shaded {
     var sum = vec3<real>();
     var weight = real(0.0);

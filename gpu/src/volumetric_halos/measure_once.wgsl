@@ -1,5 +1,5 @@
 // Gradients of samples that are composited and seed: measured once.
-// Glue: What samples are asked for.
+// Glue: Queries of samples.
 
 // The plane of the sample that was measured last, and what was measured.
 var<private> measured_plane: i32;

@@ -1,5 +1,5 @@
 // Empty-space skipping of seeds ([RAY-2]): a bit for each brick in which a sample can seed.
-// Glue: What samples are passed over.
+// Glue: Samples that are passed over.
 
 @group(1) @binding(33) var<storage, read> seed_bricks: array<u32>;
 

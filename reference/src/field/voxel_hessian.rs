@@ -7,8 +7,9 @@ use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
 impl Field<'_, f64> {
-    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. A formula takes the place of voxels. Away from the border central differences
-    /// read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere the sampler itself is asked.
+    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. Away from the border central differences
+    /// read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere the sampler itself is asked, and so it is where
+    /// a formula takes the place of voxels.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.

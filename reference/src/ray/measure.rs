@@ -15,7 +15,8 @@ use drypoint_scene::volume::Volume;
 /// Measures the data of each of a shot's objects, in their order. Objects of one volume share its numbers.
 ///
 /// # Errors
-/// A reconstruction that does not exist, sample planes that fall together, labels that were not handed over.
+/// A reconstruction that does not exist, sample planes that fall together, samples without end, labels that were not handed
+/// over, a label that no voxel has.
 pub fn measure(shot: &Shot, inputs: &Inputs<'_>) -> Result<Vec<Measured>, RenderError> {
     match shot.number {
         Number::F64 => measure_in::<f64>(shot, inputs),

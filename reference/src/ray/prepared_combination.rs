@@ -113,7 +113,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     /// Prepares the objects of a shot.
     ///
     /// # Errors
-    /// Data that were not handed over, and what a part of a picture of its own could be refused for.
+    /// Data that were not handed over, and faults of a part's function and material.
     pub(super) fn new(
         (shot, combination): (&Shot, &Combination),
         inputs: &Inputs<'v>,

@@ -56,10 +56,11 @@ pub enum Membership {
     Voxels,
 }
 
-/// A selection or a ghost as it is drawn: the place of one of [`Shot::objects`].
+/// A selection or a ghost as it is drawn. The part at place i of [`Combination::parts`] is at place i + 1 of
+/// [`Shot::objects`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Part {
-    /// The place of its object.
+    /// The place of its `[[object]]` in the scene, and of its selection in [`Combination::selections`].
     pub object: usize,
     /// Whether it is the selection or the ghost.
     pub role: Role,

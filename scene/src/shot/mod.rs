@@ -60,10 +60,10 @@ pub struct Shot {
     pub refine_above: Option<f64>,
     /// The number type of samples.
     pub number: Number,
-    /// The volumes that are drawn. The first is that of `[volume]`, which is the background of the others; they are the parts
-    /// of [`combination`](Self::combination), in its order.
+    /// The volumes that are drawn. The first is that of `[volume]`, the background. The parts of
+    /// [`combination`](Self::combination) follow, in the order of that list.
     pub objects: Vec<Object>,
-    /// The combination of the objects ([VS-2]); none: there is one.
+    /// The combination of the objects ([VS-2]); none for the volume alone.
     pub combination: Option<Combination>,
     /// The opaque iso-surface; none: none ([HATCH-14]).
     pub surface: Option<OpaqueSurface>,
@@ -356,30 +356,45 @@ mod tests {
         let models = [
             "",
             "[shading]\nmodel = \"toon\"\n",
-            "[shading]\nmodel = \"lighting-function\"\npreset = \"cartoon\"\n",
+            "[shading]\nmodel = \"lighting-function\"\npreset = \"cartoon-contours\"\n",
             "[shading]\nmodel = \"lighting-function\"\npreset = \"blinn-phong-contours\"\n",
             "[shading]\nmodel = \"lighting-function\"\npreset = \"blinn-phong-contours\"\ncontour = \"printed\"\n",
         ];
-        let surface = "[surface]\niso = 5\nlook = \"phong\"\n";
+        let surfaces = ["phong", "toon"].map(|look| format!("[surface]\niso = 5\nlook = \"{look}\"\n"));
         let mesh = "[[mesh]]\nfile = \"a.ply\"\n";
+        let object = "[[object]]\nname = \"part\"\nvalue = [[1, 0], [2, 1]]\nmove = [1, 0, 0]\n\
+                      [object.ghost.shading]\nmodel = \"toon\"\n";
         let transfer = "[transfer]\nkind = \"regular\"\nnodes = [{ at = 1, color = \"red\", opacity = 1 }]\n";
         let grid = Grid::with_spacing([9, 9, 9], [0.5, 1.0, 1.0]).unwrap();
         let volume = Volume::new(grid.clone(), Voxels::U8(vec![0; 729]), 1.0, 0.0).unwrap();
+        let range = [0.0, 9.0];
         let mut turned = 0;
-        for (light, model) in lights.into_iter().flat_map(|light| models.map(|model| (light, model))) {
-            let text =
-                format!("drypoint = 1\nlight = {light}\n[volume]\nfile = \"a.nrrd\"\n{transfer}{model}{surface}{mesh}");
+        let cases = lights.into_iter().flat_map(|light| models.map(|model| (light, model)));
+        for (i, (light, model)) in cases.enumerate() {
+            let head = format!("drypoint = 1\nlight = {light}\n[volume]\nfile = \"a.nrrd\"\n");
+            let text = format!("{head}{transfer}{model}{}{mesh}{object}", surfaces[i % 2]);
             let scene = parse(&text, Path::new("s"), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
-            let function = Function::new(scene.transfer.as_ref().unwrap(), [0.0, 9.0], &volume, &|_| None).unwrap();
+            let function = Function::new(scene.transfer.as_ref().unwrap(), range, &volume, &|_| None).unwrap();
             let (function, plan) = (Arc::new(function.unwrap()), Plan::new(&scene));
+            let of_parts: Vec<Scene> = scene.parts().map(|(object, role)| scene.of_part(object, role)).collect();
+            let plans: Vec<Plan> = of_parts.iter().map(Plan::new).collect();
             let views = [DVec3::NEG_Z, DVec3::new(1.0, 1.0, -0.5)].map(|direction| {
                 let camera = Camera { direction, direction_given: true, ..Camera::default() };
                 View::new(&camera, &grid, [20, 10]).unwrap()
             });
             let [first, second] = views.map(|view| {
-                let facts = VolumeFacts { grid: &grid, is_integer: true };
-                Shot::resolve(&scene, &plan, facts, function.clone(), view).unwrap()
+                let (grid, is_integer) = (&grid, true);
+                let facts = VolumeFacts { grid, is_integer };
+                let shot = Shot::resolve(&scene, &plan, facts, function.clone(), view).unwrap();
+                let of_parts = of_parts.iter().zip(&plans).map(|(scene, plan)| {
+                    let function = function.clone();
+                    PartFacts { scene, plan, function, grid, is_integer, range }
+                });
+                let of_parts: Vec<PartFacts<'_>> = of_parts.collect();
+                let selection = SelectionFacts { grid: grid.clone(), index_box: Some(grid.index_box()) };
+                shot.with_objects(&scene, facts, range, &[selection], &of_parts).unwrap()
             });
+            assert_eq!(first.objects.len(), 3);
             assert_eq!(first.seen_from(second.view.clone()), second, "{text}");
             turned += usize::from(first.objects[0].material != second.objects[0].material);
         }

@@ -107,7 +107,7 @@ table! {
 }
 
 impl AxisOf {
-    /// The quantity; of several keys the last one counts, none gives none.
+    /// The quantity. Of several keys the last one counts; a table without a key has no quantity.
     fn axis(self) -> Option<Axis> {
         let distance = || self.distance.map(Axis::Distance);
         let label = || self.distance_to_label.map(Axis::DistanceToLabel);

@@ -191,7 +191,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "is_in_picture",
     "is_in_selection",
     "is_inside_surface",
-    "is_largest",
+    "take_if_largest",
     "is_masked",
     "is_near_open",
     "is_open",

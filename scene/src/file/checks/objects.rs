@@ -159,7 +159,7 @@ mod tests {
             (object("label = \"liver\""), "object[0].label", "has no names of them"),
             (object("volume = \"b.nrrd\"\nlabel = 3"), "object[0].label", "object[0].labels = \"…\""),
             (object("range = [0, 1]"), "object[0].range", "has none"),
-            (object("scale = [1, 1, 1e-20]"), "object[0].scale", "is singular"),
+            (object("scale = [1, 1, 1e-20]"), "object[0].scale", "\"tumour\" is singular"),
             (object("scale = 0"), "object[0].scale", "none is 0"),
             (
                 object("matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]"),

@@ -87,7 +87,9 @@ impl Motion {
         if check.sound(&["scale", "rotate", "matrix"]) && self.is_singular() {
             let key = if self.matrix.is_some() { "matrix" } else { "scale" };
             let what = format!("the motion of {moved} is singular: it flattens space, or leaves the range of numbers");
-            let remedy = "no factor may be 0, 10¹² times smaller than another, or beyond 10⁷⁵".into();
+            let remedy =
+                "give it an inverse: no factor may be 0, 10¹² times smaller than another, or too large for its inverse"
+                    .into();
             check.fault_in(key, Problem::Contradiction { what, remedy });
         }
     }

@@ -1,4 +1,4 @@
-//! The scene of a part: an object's selection or its ghost, drawn as a picture of its own ([VS-2]).
+//! The tables of a part: an object's selection or its ghost ([VS-2]).
 
 use crate::picture::LayerKind;
 use crate::tables::{

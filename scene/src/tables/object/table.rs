@@ -152,7 +152,8 @@ pub(crate) static TABLE: Table<ObjectTable> = Table {
                 check.fault_in(key, Problem::Contradiction { what, remedy });
             }
         }
-        object.motion.check("the object", check);
+        let name = if object.name.is_empty() { String::new() } else { format!(" {:?}", object.name) };
+        object.motion.check(&format!("the object{name}"), check);
     },
     ..ObjectTable::description(
         "an object",
