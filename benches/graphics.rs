@@ -7,6 +7,7 @@
 mod specimen;
 
 use drypoint::cost::median;
+use drypoint::frames::Frames;
 use drypoint::gpu::{Gpu, GpuFrames, Interpolation};
 use drypoint::reference::ray::Renderer;
 use specimen::{COLOURS, STYLES, job};
@@ -80,7 +81,7 @@ fn main() -> Result<(), String> {
 
 /// A scene on the card, with each interpolation, and on the reference.
 struct Kind<'a> {
-    frames: Vec<GpuFrames<'a>>,
+    frames: Vec<GpuFrames>,
     reference: Renderer<'a>,
     rounds: Vec<Round>,
 }

@@ -5,6 +5,7 @@
 //! `cargo bench --bench volumeshop_table_1`, with `--features gpu` on a graphics card, too.
 
 #[cfg(feature = "gpu")]
+use drypoint::frames::Frames;
 use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::Job;
 use drypoint::reference::ray::Renderer;
@@ -68,7 +69,7 @@ fn table(folder: &Path) -> Result<(), String> {
 fn on_card(jobs: &[Job], views: &[View]) -> Result<(), String> {
     let gpu = Gpu::new().map_err(|e| e.to_string())?;
     println!("\nOn {}:\n", gpu.describe());
-    let mut frames: Vec<GpuFrames<'_>> =
+    let mut frames: Vec<GpuFrames> =
         jobs.iter().map(|job| GpuFrames::new(job, &gpu)).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     let shots: Vec<Shot> = jobs.iter().map(Job::shot).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
     measure(views, |i, view| {

@@ -3,10 +3,10 @@
 mod frame_writer;
 
 use crate::Failure;
+use crate::frames::{Frames, frames};
 use crate::gpu::Gpu;
 use crate::job::{Job, RenderTarget, provenance};
 use crate::marking::{MarkFrames, Marking};
-use crate::volume_renderer::VolumeRenderer;
 use drypoint_output::paint::fragments;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
@@ -18,6 +18,8 @@ use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
 use frame_writer::FrameWriter;
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// A job made ready for any number of frames.
 pub struct Drawing<'a> {
@@ -26,7 +28,7 @@ pub struct Drawing<'a> {
     orbit: Option<Orbit>,
     /// The shot of the first camera, if other frames have others.
     shot: Option<Shot>,
-    renderer: Option<VolumeRenderer<'a>>,
+    renderer: Option<Box<dyn Frames + 'a>>,
     marks: Option<MarkFrames<'a>>,
 }
 
@@ -71,25 +73,34 @@ impl<'a> Drawing<'a> {
         card: Option<&'a Gpu>,
         counts: &mut Counts,
     ) -> Result<Self, Failure> {
-        let draws = job.draws_volume();
-        let renderer = draws.then(|| VolumeRenderer::new(job, None, card, counts)).transpose()?;
-        let mut marks = marking.frames(counts);
-        if let (Some(marks), Some(gpu)) = (&mut marks, card) {
+        let renderer = job.draws_volume().then(|| frames(job, None, card, counts)).transpose()?;
+        let mut drawing = Self::by(job, marking, renderer, counts)?;
+        if let (Some(marks), Some(gpu)) = (&mut drawing.marks, card) {
             marks.on_gpu(job, gpu)?;
         }
+        Ok(drawing)
+    }
+
+    /// Prepares the frames of a job like [`Drawing::new`], with frames of its volume that are ready; none: the volume is not
+    /// drawn.
+    ///
+    /// # Errors
+    /// A camera without direction.
+    pub fn by(
+        job: &'a Job,
+        marking: &'a Marking<'a>,
+        renderer: Option<Box<dyn Frames + 'a>>,
+        counts: &mut Counts,
+    ) -> Result<Self, Failure> {
+        let marks = marking.frames(counts);
         let (first, orbit) = (job.view()?, job.scene.orbit);
-        let shot = orbit.filter(|_| draws).map(|_| job.shot()).transpose()?;
+        let shot = orbit.filter(|_| renderer.is_some()).map(|_| job.shot()).transpose()?;
         Ok(Self { job, first, orbit, shot, renderer, marks })
     }
 
-    /// Renders the volume plane by plane instead. The picture is the same.
-    pub fn plane_by_plane(self) -> Self {
-        let renderer = self.renderer.map(|renderer| match renderer {
-            VolumeRenderer::Reference(renderer) => VolumeRenderer::Reference(Box::new(renderer.plane_by_plane())),
-            #[cfg(feature = "gpu")]
-            VolumeRenderer::Gpu(_) => renderer,
-        });
-        Self { renderer, ..self }
+    /// Hands over what stops frames of the volume. See [`Frames::stop_by`].
+    pub fn stop_by(&mut self, stop: &Arc<AtomicBool>) {
+        self.renderer.iter_mut().for_each(|frames| frames.stop_by(stop.clone()));
     }
 
     /// Returns the number of frames: those of `[orbit]`, or one.
@@ -137,7 +148,7 @@ impl<'a> Drawing<'a> {
         let picture = match &mut self.renderer {
             Some(renderer) => {
                 if let Some(shot) = &self.shot {
-                    renderer.turn(&shot.seen_from(view), self.job)?;
+                    renderer.turn(&shot.seen_from(view))?;
                 }
                 let (picture, own) = renderer.frame(progress)?;
                 counts.add(&own);

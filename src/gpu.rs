@@ -1,6 +1,7 @@
 //! Pictures of jobs on graphics cards.
 
 use crate::Failure;
+use crate::frames::Frames;
 use crate::job::{Job, KnobVariant, render_failure, room_for_picture};
 use crate::stippling::PointTest;
 use drypoint_gpu::{CardInputs, Renderer};
@@ -10,28 +11,73 @@ use drypoint_reference::ray::lattice::samples_in;
 use drypoint_reference::ray::measure;
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::file::Given;
 use drypoint_scene::fragments::Fragments;
+use drypoint_scene::inputs::Inputs;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::plan::{Pass, Plan};
-use drypoint_scene::shot::Shot;
+use drypoint_scene::shot::{Shot, ShotChange};
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::Scene;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// A job whose volume lies on a graphics card.
 pub struct GpuJob<'a> {
     job: &'a Job,
     gpu: &'a Gpu,
+    uploaded: Uploaded,
+}
+
+/// Data of a shot on a graphics card.
+struct Uploaded {
     shot: Shot,
-    /// The facts of the volume, then of those of the parts of objects.
+    /// The facts of the volume, then of those of the parts of objects; their numbers are on the card.
     measured: Vec<Measured>,
     /// The volume, then those that objects have of their own.
     volumes: Vec<Volume>,
     /// For each entry of `measured` the place of its volume.
     places: Vec<usize>,
+    /// The volume that each entry of `measured` is of.
+    of: Vec<Arc<drypoint_scene::volume::Volume>>,
     /// Whether frames can have lines inside the volume.
     has_lines: bool,
+}
+
+impl Uploaded {
+    /// Measures the data of a shot of a job, which needs no renderer, and uploads them.
+    fn new(
+        (job, gpu): (&Job, &Gpu),
+        shot: Shot,
+        (scene, plan): (&Scene, &Plan),
+        precision: Precision,
+    ) -> Result<Self, Failure> {
+        let measured = measure(&shot, &job.inputs(&shot)).map_err(|error| render_failure(&error, scene))?;
+        let (mut volumes, mut places) = (Vec::new(), Vec::<usize>::new());
+        for (i, own) in measured.iter().enumerate() {
+            // Objects of one volume share its numbers.
+            let same = measured[..i].iter().position(|other| Arc::ptr_eq(&other.numbers, &own.numbers));
+            places.push(same.map_or(volumes.len(), |same| places[same]));
+            if same.is_none() {
+                volumes.push(Volume::new(gpu, own, precision).map_err(|error| failure(&error, &scene.given))?);
+            }
+        }
+        let measured = measured.into_iter().map(Measured::without_numbers).collect();
+        let has_lines = plan.has_pass(Pass::MergedStrokes);
+        Ok(Self { shot, measured, volumes, places, of: job.volumes().cloned().collect(), has_lines })
+    }
+
+    /// The data of a job with their facts.
+    fn inputs<'i>(&'i self, data: &'i Inputs<'i>) -> CardInputs<'i> {
+        CardInputs { data, measured: &self.measured, places: &self.places, has_lines: self.has_lines }
+    }
+
+    /// Whether the volumes are those of a job.
+    fn are_of(&self, job: &Job) -> bool {
+        self.of.iter().map(Arc::as_ptr).eq(job.volumes().map(Arc::as_ptr))
+    }
 }
 
 impl<'a> GpuJob<'a> {
@@ -40,9 +86,7 @@ impl<'a> GpuJob<'a> {
     /// # Errors
     /// Same errors as [`Job::renderer`], and those of the adapter.
     pub fn new(job: &'a Job, gpu: &'a Gpu, precision: Precision) -> Result<Self, Failure> {
-        let shot = job.shot()?;
-        let measured = measured(job, &job.scene, &job.plan, &shot)?;
-        Self::upload(job, gpu, shot, measured, &job.plan, precision)
+        Self::upload((job, gpu), job.shot()?, (&job.scene, &job.plan), precision)
     }
 
     /// Measures the volume of a job for a scene with other knobs, and uploads it.
@@ -50,36 +94,24 @@ impl<'a> GpuJob<'a> {
     /// # Errors
     /// Same errors as [`GpuJob::new`].
     pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
-        let shot = job.shot_of(variant)?;
-        let measured = measured(job, &variant.scene, &variant.plan, &shot)?;
-        Self::upload(job, gpu, shot, measured, &variant.plan, precision)
+        Self::upload((job, gpu), job.shot_of(variant)?, (&variant.scene, &variant.plan), precision)
     }
 
     fn upload(
-        job: &'a Job,
-        gpu: &'a Gpu,
+        (job, gpu): (&'a Job, &'a Gpu),
         shot: Shot,
-        measured: Vec<Measured>,
-        plan: &Plan,
+        (scene, plan): (&Scene, &Plan),
         precision: Precision,
     ) -> Result<Self, Failure> {
-        let (mut volumes, mut places) = (Vec::new(), Vec::<usize>::new());
-        for (i, own) in measured.iter().enumerate() {
-            // Objects of one volume share its numbers.
-            let same = measured[..i].iter().position(|other| Arc::ptr_eq(&other.numbers, &own.numbers));
-            places.push(same.map_or(volumes.len(), |same| places[same]));
-            if same.is_none() {
-                volumes.push(Volume::new(gpu, own, precision).map_err(|error| failure(&error, job))?);
-            }
-        }
-        Ok(Self { job, gpu, shot, measured, volumes, places, has_lines: plan.has_pass(Pass::MergedStrokes) })
+        has_room(job, scene, plan)?;
+        Ok(Self { job, gpu, uploaded: Uploaded::new((job, gpu), shot, (scene, plan), precision)? })
     }
 
     /// Returns a renderer of the job's picture.
     ///
     /// # Errors
     /// An effect without a shader, and errors of the adapter.
-    pub fn renderer(&self) -> Result<Renderer<'a>, Failure> {
+    pub fn renderer(&self) -> Result<Renderer, Failure> {
         self.edited(&|text| text)
     }
 
@@ -87,11 +119,11 @@ impl<'a> GpuJob<'a> {
     ///
     /// # Errors
     /// Same errors as [`GpuJob::renderer`].
-    pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<Renderer<'a>, Failure> {
-        let (measured, places, has_lines) = (&self.measured, &self.places, self.has_lines);
-        let inputs = CardInputs { data: &self.job.inputs(&self.shot), measured, places, has_lines };
-        let renderer = Renderer::edited(self.gpu, &self.volumes, &self.shot, &inputs, edit);
-        renderer.map_err(|error| failure(&error, self.job))
+    pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<Renderer, Failure> {
+        let Uploaded { shot, volumes, .. } = &self.uploaded;
+        let data = self.job.inputs(shot);
+        let renderer = Renderer::edited(self.gpu, volumes, shot, &self.uploaded.inputs(&data), edit);
+        renderer.map_err(|error| self.failure(&error))
     }
 
     /// Draws one frame.
@@ -104,103 +136,88 @@ impl<'a> GpuJob<'a> {
 
     /// Returns an error of a renderer with the scene's key, if one is at fault.
     pub fn failure(&self, error: &GpuError) -> Failure {
-        failure(error, self.job)
+        failure(error, &self.job.scene.given)
     }
 }
 
-/// Frames of a job on a graphics card.
-pub struct GpuFrames<'a> {
-    job: &'a Job,
-    gpu: &'a Gpu,
-    renderer: Renderer<'a>,
+/// Frames of a job on a graphics card. They own what they need, so that a viewer can keep them beside a job that changes.
+pub struct GpuFrames {
+    gpu: Gpu,
+    uploaded: Uploaded,
+    renderer: Renderer,
+    grid: Grid,
+    /// The keys of the scene, for errors.
+    given: Given,
     /// A viewer's texture, where frames are shown.
     shown: Option<wgpu::Texture>,
-    samples: f64,
-    rays_across: usize,
-    bytes: u64,
 }
 
-impl<'a> GpuFrames<'a> {
+impl GpuFrames {
     /// Uploads the volume of a job and prepares its shader.
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`], an effect without a shader, and errors of the adapter.
-    pub fn new(job: &'a Job, gpu: &'a Gpu) -> Result<Self, Failure> {
-        Self::of_job(&GpuJob::new(job, gpu, Precision::Single)?)
+    pub fn new(job: &Job, gpu: &Gpu) -> Result<Self, Failure> {
+        Self::of_job(GpuJob::new(job, gpu, Precision::Single)?)
     }
 
     /// Prepares frames of a scene with other knobs.
     ///
     /// # Errors
     /// Same errors as [`GpuFrames::new`].
-    pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant) -> Result<Self, Failure> {
-        Self::of_job(&GpuJob::of(job, gpu, variant, Precision::Single)?)
+    pub fn of(job: &Job, gpu: &Gpu, variant: &KnobVariant) -> Result<Self, Failure> {
+        Self::of_job(GpuJob::of(job, gpu, variant, Precision::Single)?)
     }
 
-    fn of_job(on_gpu: &GpuJob<'a>) -> Result<Self, Failure> {
-        let (job, shot, renderer) = (on_gpu.job, &on_gpu.shot, on_gpu.renderer()?);
-        let rays = (shot.rays_across * shot.rays_across) as f64;
-        let samples = samples_in(&shot.lattice, &shot.view, job.volume.grid()) * rays;
-        Ok(Self {
-            job,
-            gpu: on_gpu.gpu,
-            renderer,
-            shown: None,
-            samples,
-            rays_across: shot.rays_across,
-            bytes: on_gpu.volumes.iter().map(Volume::bytes).sum(),
-        })
+    fn of_job(on_gpu: GpuJob<'_>) -> Result<Self, Failure> {
+        let (renderer, GpuJob { job, gpu, uploaded }) = (on_gpu.renderer()?, on_gpu);
+        let (grid, given) = (job.volume.grid().clone(), job.scene.given.clone());
+        Ok(Self { gpu: gpu.clone(), uploaded, renderer, grid, given, shown: None })
     }
 
-    /// Returns about how many samples a frame has without skipping.
-    pub fn samples(&self) -> f64 {
-        self.samples
+    /// Takes another scene for the frames that follow, for example one of which the user has moved a clip plane. Volumes that
+    /// both jobs share stay on the card, facts of them that the scene does not change are not measured again, and pipelines
+    /// stay where the shader's text does ([`Renderer::change`]).
+    ///
+    /// # Errors
+    /// Same errors as [`GpuFrames::new`]. The frames that follow are then those of before.
+    pub fn change(&mut self, job: &Job) -> Result<ShotChange, Failure> {
+        let (shot, has_lines) = (job.shot()?, job.plan.has_pass(Pass::MergedStrokes));
+        let change = match self.uploaded.are_of(job) {
+            true => shot.change_from(&self.uploaded.shot),
+            false => ShotChange::Facts,
+        };
+        if has_lines == self.uploaded.has_lines && change <= ShotChange::View {
+            self.turn(&shot)?;
+        } else {
+            has_room(job, &job.scene, &job.plan)?;
+            let data = job.inputs(&shot);
+            let renewed = match change {
+                ShotChange::Facts => {
+                    Some(Uploaded::new((job, &self.gpu), shot.clone(), (&job.scene, &job.plan), Precision::Single)?)
+                }
+                _ => None,
+            };
+            let uploaded = renewed.as_ref().unwrap_or(&self.uploaded);
+            let inputs = CardInputs { has_lines, ..uploaded.inputs(&data) };
+            let changed = self.renderer.change(&uploaded.volumes, &shot, &inputs);
+            changed.map_err(|error| failure(&error, &job.scene.given))?;
+            if let Some(renewed) = renewed {
+                self.uploaded = renewed;
+            }
+            self.uploaded.has_lines = has_lines;
+        }
+        if self.uploaded.shot.view.size != shot.view.size {
+            self.shown = None;
+        }
+        self.uploaded.shot = shot;
+        (self.grid, self.given) = (job.volume.grid().clone(), job.scene.given.clone());
+        Ok(change)
     }
 
     /// Returns the bytes of the volume's numbers on the card.
     pub fn bytes(&self) -> u64 {
-        self.bytes
-    }
-
-    /// Returns n of the n×n rays of a pixel, before it is refined.
-    pub fn rays_across(&self) -> usize {
-        self.rays_across
-    }
-
-    /// Puts lines inside the frames that follow, or takes them out.
-    ///
-    /// # Errors
-    /// Lines in a scene whose plan has none inside the volume.
-    pub fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure> {
-        self.renderer.merge(lines).map_err(|error| failure(&error, self.job))
-    }
-
-    /// Takes the camera and the lights of another shot of the job.
-    ///
-    /// # Errors
-    /// A camera too far away.
-    pub fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
-        self.renderer.turn(shot, self.job.volume.grid()).map_err(|error| failure(&error, self.job))
-    }
-
-    /// Draws a frame into a texture, as a viewer does, and waits for it. Returns the seconds of its rays by the adapter's
-    /// clock; none where it has no clock.
-    ///
-    /// # Errors
-    /// Errors of the adapter, and a picture without a beauty.
-    pub fn show(&mut self) -> Result<Option<f64>, Failure> {
-        let texture = match self.shown.take() {
-            Some(texture) => texture,
-            None => {
-                let texture = self.gpu.viewer_texture(self.job.scene.picture.size);
-                texture.map_err(|error| failure(&error, self.job))?
-            }
-        };
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.shown = Some(texture);
-        let shown =
-            self.renderer.frame_into(&view).and_then(|()| self.gpu.wait()).and_then(|()| self.renderer.seconds());
-        shown.map_err(|error| failure(&error, self.job))
+        self.uploaded.volumes.iter().map(Volume::bytes).sum()
     }
 
     /// The texture of the last frame that was shown.
@@ -208,38 +225,71 @@ impl<'a> GpuFrames<'a> {
         self.shown.as_ref()
     }
 
-    /// Draws a frame, with its own counts.
-    ///
-    /// # Errors
-    /// Errors of the adapter.
-    pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<(Picture, Counts), Failure> {
-        let start = Instant::now();
-        let picture = self.renderer.frame(progress).map_err(|error| failure(&error, self.job))?;
-        let mut counts = Counts::default();
-        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
-        let on_card = self.renderer.seconds().map_err(|error| failure(&error, self.job))?;
-        counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
-        Ok((picture, counts))
+    /// Returns an error of the adapter with the scene's key, if one is at fault.
+    fn failure(&self, error: &GpuError) -> Failure {
+        failure(error, &self.given)
     }
 }
 
-/// Measures the data of a shot of a job, which needs no renderer.
-fn measured(job: &Job, scene: &Scene, plan: &Plan, shot: &Shot) -> Result<Vec<Measured>, Failure> {
+impl Frames for GpuFrames {
+    fn samples(&self) -> f64 {
+        let Shot { lattice, view, rays_across, .. } = &self.uploaded.shot;
+        samples_in(lattice, view, &self.grid) * (rays_across * rays_across) as f64
+    }
+
+    fn rays_across(&self) -> usize {
+        self.uploaded.shot.rays_across
+    }
+
+    fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure> {
+        self.renderer.merge(lines).map_err(|error| self.failure(&error))
+    }
+
+    fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
+        self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))
+    }
+
+    fn stop_by(&mut self, stop: Arc<AtomicBool>) {
+        self.renderer.stop_by(stop);
+    }
+
+    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
+        let start = Instant::now();
+        let picture = self.renderer.frame(progress).map_err(|error| self.failure(&error))?;
+        let mut counts = Counts::default();
+        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
+        let on_card = self.renderer.seconds().map_err(|error| self.failure(&error))?;
+        counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
+        Ok((picture, counts))
+    }
+
+    fn show(&mut self) -> Result<Option<f64>, Failure> {
+        let texture = match self.shown.take() {
+            Some(texture) => texture,
+            None => {
+                let texture = self.gpu.viewer_texture(self.uploaded.shot.view.size);
+                texture.map_err(|error| self.failure(&error))?
+            }
+        };
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.shown = Some(texture);
+        let shown =
+            self.renderer.frame_into(&view).and_then(|()| self.gpu.wait()).and_then(|()| self.renderer.seconds());
+        shown.map_err(|error| self.failure(&error))
+    }
+}
+
+/// Checks that there is memory for measuring and for the picture.
+fn has_room(job: &Job, scene: &Scene, plan: &Plan) -> Result<(), Failure> {
     job.room_for_preparing(scene, plan)?;
-    room_for_picture(scene, 0)?;
-    measure(shot, &job.inputs(shot)).map_err(|error| render_failure(&error, scene))
+    room_for_picture(scene, 0)
 }
 
 /// Prepares the test of which points a surface hides.
 ///
 /// # Errors
 /// Errors of the adapter.
-pub(crate) fn point_test<'a>(
-    job: &Job,
-    gpu: &'a Gpu,
-    surface: &IsoSurface<'_, '_>,
-    near: f64,
-) -> Result<PointTest<'a>, Failure> {
+pub(crate) fn point_test(job: &Job, gpu: &Gpu, surface: &IsoSurface<'_, '_>, near: f64) -> Result<PointTest, Failure> {
     let failure = |error: GpuError| Failure::new(error.to_string(), "--backend", remedy(&error));
     let measured = surface.measured();
     let volume = Volume::new(gpu, &measured, Precision::Single).map_err(failure)?;
@@ -270,9 +320,9 @@ pub fn open(interpolation: Interpolation) -> Result<Gpu, Failure> {
 }
 
 /// Returns an error of the adapter with the scene's key, if one is at fault.
-fn failure(error: &GpuError, job: &Job) -> Failure {
+fn failure(error: &GpuError, given: &Given) -> Failure {
     let place = match error {
-        GpuError::Missing { key, .. } => job.scene.given.position(key),
+        GpuError::Missing { key, .. } => given.position(key),
         _ => "--backend".into(),
     };
     Failure::new(error.to_string(), place, remedy(error))

@@ -365,6 +365,12 @@ impl Job {
         }
     }
 
+    /// Returns the volumes of [`Shot::objects`], in their order.
+    #[cfg(feature = "gpu")]
+    pub(crate) fn volumes(&self) -> impl Iterator<Item = &Arc<Volume>> {
+        std::iter::once(&self.volume).chain(self.objects.volumes())
+    }
+
     /// Returns what lies behind the volume.
     pub(crate) fn backdrop(&self, shot: &Shot) -> Backdrop<'_> {
         match (&self.background, &shot.background) {

@@ -13,6 +13,7 @@
 //! | a file | [`job::Job::write`] |
 //! | the place that is seen at a pixel | [`picking::pick_pixel`] |
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
+//! | frames of the volume alone, on either back end | [`frames::Frames`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //! | all of the command | `command::run` |
 //!
@@ -27,6 +28,7 @@ pub mod cost;
 pub mod drawing;
 pub mod failure;
 pub mod format;
+pub mod frames;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 #[cfg(not(feature = "gpu"))]
@@ -42,7 +44,6 @@ pub mod stroking;
 pub mod tone_plot;
 #[cfg(feature = "gpu")]
 pub mod validate;
-mod volume_renderer;
 pub mod wedge;
 
 pub use drypoint_output as output;

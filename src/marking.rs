@@ -57,12 +57,12 @@ impl<'a> Marking<'a> {
     }
 }
 
-impl<'a> MarkFrames<'a> {
+impl MarkFrames<'_> {
     /// Tests points for visibility on a graphics card.
     ///
     /// # Errors
     /// Errors of the adapter.
-    pub(crate) fn on_gpu(&mut self, job: &'a Job, gpu: &'a Gpu) -> Result<(), Failure> {
+    pub(crate) fn on_gpu(&mut self, job: &Job, gpu: &Gpu) -> Result<(), Failure> {
         let Some(dots) = &mut self.dots else { return Ok(()) };
         let test = dots.hiding().map(|(surface, near)| point_test(job, gpu, surface, near)).transpose()?;
         test.into_iter().for_each(|test| dots.test_by(test));

@@ -9,6 +9,6 @@ use drypoint_reference::surface::IsoSurface;
 pub enum Gpu {}
 
 /// The test of which points a surface hides.
-pub(crate) fn point_test<'a>(_: &Job, gpu: &'a Gpu, _: &IsoSurface<'_, '_>, _: f64) -> Result<PointTest<'a>, Failure> {
+pub(crate) fn point_test(_: &Job, gpu: &Gpu, _: &IsoSurface<'_, '_>, _: f64) -> Result<PointTest, Failure> {
     match *gpu {}
 }

@@ -61,7 +61,7 @@ struct PenDots {
 }
 
 /// A test of which points a surface hides, from a camera and so far in front of the surface.
-pub type PointTest<'a> = Box<dyn FnMut(&View, f64, &[SurfacePoint]) -> Result<Vec<bool>, Failure> + 'a>;
+pub type PointTest = Box<dyn FnMut(&View, f64, &[SurfacePoint]) -> Result<Vec<bool>, Failure>>;
 
 /// Frames of points.
 pub struct DotFrames<'a> {
@@ -69,7 +69,7 @@ pub struct DotFrames<'a> {
     layers: Vec<Frames<'a>>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
     /// The test of hidden points in place of the reference's.
-    test: Option<PointTest<'a>>,
+    test: Option<PointTest>,
     /// Drawn dots of each layer.
     drawn: Vec<FrameDots>,
 }
@@ -178,7 +178,7 @@ impl<'a> DotFrames<'a> {
     }
 
     /// Sets the test of hidden points in place of the reference's.
-    pub fn test_by(&mut self, test: PointTest<'a>) {
+    pub fn test_by(&mut self, test: PointTest) {
         self.test = Some(test);
     }
 

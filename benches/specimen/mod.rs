@@ -7,7 +7,7 @@ use drypoint::scene::phantom;
 use drypoint::scene::tables::VolumeSource;
 use drypoint::scene::volume::Volume;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 const SCENE: &str = r##"
 drypoint = 1
@@ -49,8 +49,8 @@ pub(crate) fn job(effects: &[&str], samples: &str) -> Job {
     let text = format!("{SCENE}{}[picture]\nsamples = {samples}\n", effects.concat());
     let scene = parse(&text, Path::new("bench.toml"), &Overrides::default()).expect("the scene above");
     // The phantom takes longer than a frame: it is made once.
-    static VOLUME: OnceLock<Volume> = OnceLock::new();
+    static VOLUME: OnceLock<Arc<Volume>> = OnceLock::new();
     let VolumeSource::Phantom(source) = &scene.volume.source else { unreachable!("the scene above has a phantom") };
-    let volume = VOLUME.get_or_init(|| phantom::generate(source).expect("the phantom"));
+    let volume = VOLUME.get_or_init(|| Arc::new(phantom::generate(source).expect("the phantom")));
     Job::with_volume(scene, volume.clone()).expect("the scene above")
 }

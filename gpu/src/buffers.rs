@@ -11,6 +11,7 @@ pub(crate) fn pipeline(
     groups: &[&wgpu::BindGroupLayout],
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
+    gpu.count_pipeline();
     gpu.attempt("the shader", || {
         let source = wgpu::ShaderSource::Wgsl(text.into());
         let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(entry_point), source });

@@ -5,6 +5,8 @@ use crate::buffers::entry;
 use crate::clock::Clock;
 use crate::picture_buffers::PictureBuffers;
 use crate::{Gpu, GpuError, Precision};
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A frame that is being drawn.
 pub(crate) struct Canvas<'f> {
@@ -17,6 +19,10 @@ pub(crate) struct Canvas<'f> {
     pub(crate) clock: Option<&'f Clock>,
     /// Hears the share of the frame that is done, after each submission, which is waited for then.
     pub(crate) progress: Option<&'f dyn Fn(f64)>,
+    /// What stops the frame.
+    pub(crate) stop: &'f AtomicBool,
+    /// Whether it was stopped.
+    pub(crate) stopped: &'f Cell<bool>,
 }
 
 impl Canvas<'_> {
@@ -57,6 +63,12 @@ impl Canvas<'_> {
             }
             self.gpu.queue.submit([encoder.finish()]);
         })
+    }
+
+    /// Whether nothing more is drawn of the frame.
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stopped.set(self.stopped.get() || self.stop.load(Ordering::Relaxed));
+        self.stopped.get()
     }
 
     /// Waits for the submissions and tells the share that is done, if anybody listens.

@@ -1,6 +1,7 @@
 //! An adapter and its device.
 
 use crate::GpuError;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Features that a device should have where its adapter does: f64, a clock, and a texture unit that interpolates f32.
@@ -60,6 +61,8 @@ pub struct Gpu {
     pub(crate) queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
     interpolation: Interpolation,
+    /// Pipelines that were compiled.
+    pipelines: Arc<AtomicUsize>,
     /// The driver's words on why the device was lost; none: it is there.
     lost: Arc<Mutex<Option<String>>>,
 }
@@ -97,7 +100,7 @@ impl Gpu {
         device.set_device_lost_callback(move |_, reason| {
             *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         });
-        Self { device, queue, info, interpolation: Interpolation::Exact, lost }
+        Self { device, queue, info, interpolation: Interpolation::Exact, pipelines: Arc::default(), lost }
     }
 
     /// The device, to make textures for [`Renderer::frame_into`](crate::Renderer::frame_into).
@@ -108,6 +111,16 @@ impl Gpu {
     /// The queue of the device.
     pub fn queue(&self) -> &wgpu::Queue {
         &self.queue
+    }
+
+    /// Number of pipelines that were compiled since the device was opened.
+    pub fn pipelines(&self) -> usize {
+        self.pipelines.load(Ordering::Relaxed)
+    }
+
+    /// Counts a pipeline.
+    pub(crate) fn count_pipeline(&self) {
+        self.pipelines.fetch_add(1, Ordering::Relaxed);
     }
 
     /// The adapter's name and driver, and whether it is software, for a person.

@@ -16,10 +16,14 @@ use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::{HaloPlanes, corners};
 use crate::{CardInputs, Gpu, GpuError, Precision, Volume, compose, volumeshop};
 use drypoint_scene::fragments::Fragments;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
+use std::cell::Cell;
 use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The first channel of a pixel whose rays the driver ended lies below.
 const UNFINISHED: f64 = -1.5e30;
@@ -33,13 +37,16 @@ enum Rays {
 }
 
 /// A shot that is ready to be drawn any number of times.
-pub struct Renderer<'g> {
-    gpu: &'g Gpu,
+pub struct Renderer {
+    gpu: Gpu,
     precision: Precision,
     shader: Shader,
+    /// The text that the pipelines run.
+    text: String,
     scales: Scales,
     rays: Rays,
     params: wgpu::Buffer,
+    data_layout: wgpu::BindGroupLayout,
     data: BoundData,
     picture: PictureBuffers,
     presentation: Option<Presentation>,
@@ -50,6 +57,8 @@ pub struct Renderer<'g> {
     funnels: Option<FunnelPasses>,
     /// The places of the shot's objects.
     objects: PlacesOfObjects,
+    /// Whether frames are stopped.
+    stop: Arc<AtomicBool>,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -57,12 +66,12 @@ pub struct Renderer<'g> {
     size: [usize; 2],
 }
 
-impl<'g> Renderer<'g> {
+impl Renderer {
     /// Prepares a shot for volumes that are already uploaded: the picture's, and those that objects have of their own.
     ///
     /// # Errors
     /// An effect without a shader, data that do not fit, a driver that refuses.
-    pub fn new(gpu: &'g Gpu, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volumes, shot, inputs, &|text| text)
     }
 
@@ -71,18 +80,30 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// See [`Renderer::new`].
     pub fn edited(
-        gpu: &'g Gpu,
+        gpu: &Gpu,
         volumes: &[Volume],
         shot: &Shot,
         inputs: &CardInputs<'_>,
         edit: &dyn Fn(String) -> String,
     ) -> Result<Self, GpuError> {
         let precision = volumes.first().ok_or(GpuError::Material)?.precision;
-        let layers = drawn_layers(shot);
-        let (shader, scales) = compose::shader(shot, &layers, inputs, precision, gpu.interpolation())?;
+        let (shader, scales) = compose::shader(shot, &drawn_layers(shot), inputs, precision, gpu.interpolation())?;
         let text = edit(shader.text(precision));
+        Self::compiled(gpu, volumes, shot, inputs, (shader, scales, text))
+    }
+
+    /// Compiles the pipelines of a shot and uploads its data.
+    fn compiled(
+        gpu: &Gpu,
+        volumes: &[Volume],
+        shot: &Shot,
+        inputs: &CardInputs<'_>,
+        (shader, scales, text): (Shader, Scales, String),
+    ) -> Result<Self, GpuError> {
+        let precision = volumes.first().ok_or(GpuError::Material)?.precision;
+        let layers = drawn_layers(shot);
         let data_layout = data_layout(gpu, &shader)?;
-        let data = bind_data(gpu, volumes, &shader, &data_layout, precision)?;
+        let data = bind_data(gpu, volumes, &shader, &data_layout, precision, None)?;
         let grid = inputs.data.main.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let objects = PlacesOfObjects::new(shot, inputs)?;
@@ -92,7 +113,7 @@ impl<'g> Renderer<'g> {
             let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
-            let others = inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect();
+            let others = others_in(inputs, &objects);
             let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
             let planes = HaloPlanes::new(gpu, shot, (grid, others), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))
@@ -107,12 +128,14 @@ impl<'g> Renderer<'g> {
         let bytes_a_row = (shot.view.size[0] * channels) as u64 * precision.size();
         let refines = shot.refine_above.is_some();
         Ok(Self {
-            gpu,
+            gpu: gpu.clone(),
             precision,
             shader,
+            text,
             scales,
             rays,
             params,
+            data_layout,
             data,
             picture: PictureBuffers::new(gpu, refines, bytes_a_row, shot.view.size[1])?,
             presentation: None,
@@ -120,10 +143,52 @@ impl<'g> Renderer<'g> {
             lines,
             objects,
             funnels,
+            stop: Arc::default(),
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
         })
+    }
+
+    /// Takes another shot for the frames that follow. Volumes and inputs are those of [`Renderer::new`]. Pipelines are compiled
+    /// only where the text of the shader or the size of a buffer changes; a change of numbers, colours or clip planes uploads
+    /// scalars and the lists that differ.
+    ///
+    /// # Errors
+    /// See [`Renderer::new`]. The renderer then draws the shot of before.
+    pub fn change(&mut self, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<(), GpuError> {
+        let layers = drawn_layers(shot);
+        let (shader, scales) = compose::shader(shot, &layers, inputs, self.precision, self.gpu.interpolation())?;
+        let text = shader.text(self.precision);
+        let stays = text == self.text
+            && layers == self.layers
+            && shot.view.size == self.size
+            && shader.binds_as(&self.shader)
+            && inputs.has_lines == self.lines.is_some()
+            && FunnelPasses::fit(self.funnels.as_ref(), shot)
+            && match &self.rays {
+                Rays::Alone(passes) => shot.halos.list.is_empty() && passes.fit(shot),
+                Rays::Together(planes) => planes.fit(shot),
+            };
+        if !stays {
+            let stop = self.stop.clone();
+            *self = Self { stop, ..Self::compiled(&self.gpu, volumes, shot, inputs, (shader, scales, text))? };
+            return Ok(());
+        }
+        let objects = PlacesOfObjects::new(shot, inputs)?;
+        let before = Some((&self.shader, &self.data));
+        self.data = bind_data(&self.gpu, volumes, &shader, &self.data_layout, self.precision, before)?;
+        let grid = inputs.data.main.volume.grid();
+        if let Some(lines) = &mut self.lines {
+            lines.turn(shot, grid);
+        }
+        match &mut self.rays {
+            Rays::Alone(passes) => passes.turn(shot, grid),
+            Rays::Together(planes) => planes.change(shot, grid, others_in(inputs, &objects)),
+        }
+        (self.shader, self.scales, self.objects) = (shader, scales, objects);
+        self.asked.clone_from(&shot.layers);
+        Ok(())
     }
 
     /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
@@ -134,14 +199,17 @@ impl<'g> Renderer<'g> {
         let place = Place::own(shot, grid);
         self.shader.block.update(&compose::camera(shot, &place)?);
         self.shader.block.update(&compose::objects::camera(shot, &self.objects, &place)?);
-        for (table, cells) in self.data.lighting.iter().zip(volumeshop::lighting_cells(shot)) {
+        let is_lighting = |(_, _, data): &(u32, &str, Data)| matches!(data, Data::Lighting(_));
+        let tables = self.shader.data.iter().zip(&self.data.lists).filter(|(data, _)| is_lighting(data));
+        for (table, cells) in tables.filter_map(|(_, list)| list.as_ref()).zip(volumeshop::lighting_cells(shot)) {
             self.gpu.queue.write_buffer(table, 0, &self.precision.bytes(&cells));
         }
         if let Some(lines) = &mut self.lines {
             lines.turn(shot, grid);
         }
-        if let Rays::Together(planes) = &mut self.rays {
-            planes.turn(shot, grid);
+        match &mut self.rays {
+            Rays::Alone(passes) => passes.turn(shot, grid),
+            Rays::Together(planes) => planes.turn(shot, grid),
         }
         Ok(())
     }
@@ -159,6 +227,12 @@ impl<'g> Renderer<'g> {
         Ok(())
     }
 
+    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
+    /// soon: an unfinished picture.
+    pub fn stop_by(&mut self, stop: Arc<AtomicBool>) {
+        self.stop = stop;
+    }
+
     /// Draws one frame. `progress` hears the share of the picture that is done.
     ///
     /// # Errors
@@ -173,9 +247,11 @@ impl<'g> Renderer<'g> {
         }
         for first in (0..height).step_by(self.picture.rows) {
             let rows = first..(first + self.picture.rows).min(height);
-            self.draw_rows(rows.clone(), Some(progress))?;
+            if !self.draw_rows(rows.clone(), Some(progress))? {
+                break;
+            }
             let bytes = self.picture.bytes_a_row * rows.len() as u64;
-            let numbers = self.precision.numbers(&read(self.gpu, &self.picture.back, bytes)?);
+            let numbers = self.precision.numbers(&read(&self.gpu, &self.picture.back, bytes)?);
             for (i, pixel) in numbers.chunks_exact(kinds.len()).take(width * rows.len()).enumerate() {
                 if pixel[0] < UNFINISHED {
                     return Err(GpuError::Unfinished { adapter: self.gpu.name().to_owned() });
@@ -207,12 +283,14 @@ impl<'g> Renderer<'g> {
     /// A shot without a beauty, a picture that does not fit in one buffer, and a device that is lost.
     pub fn frame_into(&mut self, target: &wgpu::TextureView) -> Result<(), GpuError> {
         self.fits_whole()?;
-        self.draw_rows(0..self.size[1], None)?;
+        if !self.draw_rows(0..self.size[1], None)? {
+            return Ok(());
+        }
         let presentation = match self.presentation.take() {
             Some(presentation) => presentation,
-            None => Presentation::new(self.gpu, self.precision, self.size, &self.layers)?,
+            None => Presentation::new(&self.gpu, self.precision, self.size, &self.layers)?,
         };
-        presentation.run(self.gpu, &self.picture.out, target)?;
+        presentation.run(&self.gpu, &self.picture.out, target)?;
         self.presentation = Some(presentation);
         Ok(())
     }
@@ -223,13 +301,15 @@ impl<'g> Renderer<'g> {
     /// # Errors
     /// A device that is lost.
     pub fn seconds(&self) -> Result<Option<f64>, GpuError> {
-        self.clock.as_ref().map(|clock| clock.seconds(self.gpu)).transpose()
+        self.clock.as_ref().map(|clock| clock.seconds(&self.gpu)).transpose()
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back.
-    fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<(), GpuError> {
-        let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
-        let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress };
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back. Returns whether that was not stopped.
+    fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<bool, GpuError> {
+        let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, stop, .. } = self;
+        let gpu = &*gpu;
+        let stopped = Cell::new(false);
+        let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress, stop, stopped: &stopped };
         if let Some(funnels) = &self.funnels {
             canvas.write_params(&self.shader.block, self.precision)?;
             funnels.draw(&canvas)?;
@@ -240,13 +320,14 @@ impl<'g> Renderer<'g> {
                 let lines = self.lines.as_ref().map(|lines| lines.buffers(gpu, self.precision)).transpose()?;
                 let of_lines = lines.iter().flat_map(|[starts, lines]| [(LINE_STARTS, starts), (LINES, lines)]);
                 let further: Vec<_> = of_lines.chain(maps).collect();
-                passes.draw(&canvas, (&mut self.shader.block, self.precision), &further, rows)
+                passes.draw(&canvas, (&mut self.shader.block, self.precision), &further, rows)?;
             }
             Rays::Together(planes) => {
                 canvas.write_params(&self.shader.block, self.precision)?;
-                planes.draw(&canvas, maps)
+                planes.draw(&canvas, maps)?;
             }
         }
+        Ok(!stopped.get())
     }
 
     /// Refuses a picture that does not fit in one buffer.
@@ -295,21 +376,27 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
+/// The corners of the boxes about all that can be seen beside the volume.
+fn others_in(inputs: &CardInputs<'_>, objects: &PlacesOfObjects) -> Vec<DVec3> {
+    inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect()
+}
+
 /// The data that a shader reads, on the card.
 pub(crate) struct BoundData {
     /// Group 1.
     pub(crate) group: wgpu::BindGroup,
-    /// The cells of the lighting tables that the shader reads.
-    lighting: Vec<wgpu::Buffer>,
+    /// The lists among the shader's data; none in the place of other data.
+    lists: Vec<Option<wgpu::Buffer>>,
 }
 
-/// Uploads what a shader reads.
+/// Uploads what a shader reads. `before` is a shader with the same bindings and its data: lists that are equal stay.
 pub(crate) fn bind_data(
     gpu: &Gpu,
     volumes: &[Volume],
     shader: &Shader,
     layout: &wgpu::BindGroupLayout,
     precision: Precision,
+    before: Option<(&Shader, &BoundData)>,
 ) -> Result<BoundData, GpuError> {
     enum Resource<'v> {
         Texture(&'v wgpu::TextureView),
@@ -317,9 +404,14 @@ pub(crate) fn bind_data(
         List(wgpu::Buffer),
     }
     let volume = |place: usize| volumes.get(place).ok_or(GpuError::Material);
-    let (mut resources, mut lighting) = (Vec::new(), Vec::new());
-    for (binding, what, data) in &shader.data {
+    let mut resources = Vec::new();
+    for (i, (binding, what, data)) in shader.data.iter().enumerate() {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let same = before.filter(|(of, _)| data.is_constant() && of.data[i].2 == *data);
+        if let Some(list) = same.and_then(|(_, bound)| bound.lists[i].clone()) {
+            resources.push((*binding, Resource::List(list)));
+            continue;
+        }
         let list = |bytes: &[u8]| buffer(gpu, what, bytes, usage).map(Resource::List);
         let resource = match data {
             Data::Numbers(place) => Resource::Texture(&volume(*place)?.numbers),
@@ -337,12 +429,7 @@ pub(crate) fn bind_data(
                 min_filter: wgpu::FilterMode::Linear,
                 ..Default::default()
             })),
-            Data::Reals(values) => list(&precision.bytes(values))?,
-            Data::Lighting(cells) => {
-                let table = list(&precision.bytes(cells))?;
-                lighting.extend(if let Resource::List(table) = &table { Some(table.clone()) } else { None });
-                table
-            }
+            Data::Reals(values) | Data::Lighting(values) => list(&precision.bytes(values))?,
             Data::Words(words) => list(bytemuck::cast_slice(words))?,
             Data::Texels(texels) => list(bytemuck::cast_slice(texels))?,
         };
@@ -360,5 +447,9 @@ pub(crate) fn bind_data(
     let group = gpu.attempt("the scene", || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("data"), layout, entries: &entries })
     })?;
-    Ok(BoundData { group, lighting })
+    let lists = resources.into_iter().map(|(_, resource)| match resource {
+        Resource::List(list) => Some(list),
+        Resource::Texture(_) | Resource::Sampler(_) => None,
+    });
+    Ok(BoundData { group, lists: lists.collect() })
 }

@@ -35,7 +35,7 @@ pub(crate) enum Data {
 
 impl Data {
     /// Whether the data are those of every frame.
-    fn is_constant(&self) -> bool {
+    pub(crate) fn is_constant(&self) -> bool {
         !matches!(self, Self::Lighting(_))
     }
 }
@@ -142,6 +142,15 @@ impl Shader {
     /// Adds data that a module binds; `what` names them for a person.
     pub(crate) fn bind(&mut self, binding: u32, what: &'static str, data: Data) {
         self.data.push((binding, what, data));
+    }
+
+    /// Whether another shader binds data of the same kinds at the same places.
+    pub(crate) fn binds_as(&self, other: &Self) -> bool {
+        let kinds = |shader: &Self| {
+            let kind = |(binding, _, data): &(u32, &str, Data)| (*binding, std::mem::discriminant(data));
+            shader.data.iter().map(kind).collect::<Vec<_>>()
+        };
+        kinds(self) == kinds(other)
     }
 
     /// The text of a shader that draws pictures.

@@ -16,7 +16,7 @@ pub struct Volume {
 
 /// The power of two e with numbers · 2^−e in [−1, 1] ([GPU-1]).
 pub(crate) fn scale_exponent(measured: &Measured) -> i32 {
-    exponent(measured.numbers.largest())
+    exponent(measured.numbers.largest)
 }
 
 impl Volume {

@@ -13,12 +13,15 @@ pub struct PaddedNumbers {
     pub dims: [usize; 3],
     /// Numbers before the first voxel of a line.
     pub pad: usize,
+    /// The largest magnitude.
+    pub largest: f64,
 }
 
 impl PaddedNumbers {
-    /// The largest magnitude.
-    pub fn largest(&self) -> f64 {
-        self.data.iter().fold(0.0, |largest, c| largest.max(c.abs()))
+    /// Numbers with their largest magnitude.
+    pub fn new(data: Vec<f64>, dims: [usize; 3], pad: usize) -> Self {
+        let largest = data.iter().fold(0.0f64, |largest, c| largest.max(c.abs()));
+        Self { data, dims, pad, largest }
     }
 }
 
@@ -49,4 +52,18 @@ pub struct Measured {
     /// The tree of boxes about the triangles of all meshes of the shot, one mesh after the other, in the volume's index space;
     /// empty without a mesh ([VS-12]).
     pub mesh_boxes: Arc<[BoxNode]>,
+}
+
+impl Measured {
+    /// The facts without the numbers, for a renderer that has uploaded them.
+    #[must_use]
+    pub fn without_numbers(self) -> Self {
+        let empty = |numbers: &PaddedNumbers| Arc::new(PaddedNumbers { data: Vec::new(), ..*numbers });
+        Self {
+            numbers: empty(&self.numbers),
+            voxels: self.voxels.as_deref().map(empty),
+            smoothed: self.smoothed.as_deref().map(empty),
+            ..self
+        }
+    }
 }

@@ -5,11 +5,11 @@ use super::statistics::median;
 use super::strokes::DrawnStrokes;
 use super::tone::tone;
 use crate::Failure;
+use crate::frames::{Frames, frames};
 use crate::gpu::Gpu;
 use crate::job::{Job, KnobVariant};
 use crate::stippling::Stippling;
 use crate::stroking::Stroking;
-use crate::volume_renderer::VolumeRenderer;
 use drypoint_output::read::Image;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, Page};
@@ -36,7 +36,7 @@ pub(super) struct TimedVariant<'a> {
     /// The graphics card that draws the volume; none: the reference.
     pub(super) card: Option<&'a Gpu>,
     /// Renderer for the next turn, if it may be kept.
-    renderer: Option<VolumeRenderer<'a>>,
+    renderer: Option<Box<dyn Frames + 'a>>,
     /// Whether it may be kept.
     keeps: bool,
     /// Output and counts of the first turn, or its failure.
@@ -83,7 +83,7 @@ impl<'a> TimedVariant<'a> {
         let mut counts = Counts::default();
         let mut renderer = match self.renderer.take() {
             Some(renderer) => renderer,
-            None => VolumeRenderer::new(self.job, Some(self.knobs), self.card, &mut counts)?,
+            None => frames(self.job, Some(self.knobs), self.card, &mut counts)?,
         };
         if self.made.is_some() {
             let start = Instant::now();

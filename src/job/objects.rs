@@ -116,6 +116,12 @@ impl Objects {
         Ok(Self { parts, selections, facts, pictures })
     }
 
+    /// The volumes of the parts.
+    #[cfg(feature = "gpu")]
+    pub(super) fn volumes(&self) -> impl Iterator<Item = &Arc<Volume>> {
+        self.parts.iter().map(|part| &part.volume)
+    }
+
     /// Flaws of objects: those that select nothing.
     pub(super) fn warnings(&self, scene: &Scene) -> impl Iterator<Item = String> {
         // A selection by value has values between voxels, too.

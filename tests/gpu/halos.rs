@@ -3,6 +3,7 @@
 use crate::double::differences;
 use crate::two_quantities::{labels, styles, torus};
 use crate::{field, gpu};
+use drypoint::frames::Frames;
 use drypoint::gpu::{GpuFrames, GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};

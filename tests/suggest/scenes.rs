@@ -3,6 +3,7 @@
 use crate::data;
 use crate::measure::measure;
 use drypoint::drawing::Drawing;
+use drypoint::frames::ReferenceFrames;
 use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
@@ -212,8 +213,10 @@ fn every_scene_is_the_same_plane_by_plane() {
         let marking = text.contains("\"merged\"").then(|| Marking::new(&job, &mut Counts::default(), &|_| ()).unwrap());
         let draw = |planes: bool| match &marking {
             Some(marking) => {
-                let drawing = Drawing::new(&job, marking, &mut Counts::default()).unwrap();
-                let mut drawing = if planes { drawing.plane_by_plane() } else { drawing };
+                let renderer = job.renderer().unwrap();
+                let renderer = if planes { renderer.plane_by_plane() } else { renderer };
+                let frames = Box::new(ReferenceFrames::new(renderer, &job.scene));
+                let mut drawing = Drawing::by(&job, marking, Some(frames), &mut Counts::default()).unwrap();
                 let (frame, counts) = drawing.frame(0, &|_| ()).unwrap();
                 (frame.picture.unwrap(), counts, frame.inside)
             }

@@ -247,7 +247,7 @@ fn volume(is_masked: bool) -> Volume {
 fn measured(volume: &Volume, has_range: bool, has_bricks: bool) -> Measured {
     let numbers = || {
         let dims = volume.dims().map(|n| n + 4);
-        PaddedNumbers { data: vec![1.0; dims.iter().product()], dims, pad: 2 }
+        PaddedNumbers::new(vec![1.0; dims.iter().product()], dims, 2)
     };
     let bricks = Bricks::new(volume.dims(), &|_| vec![[0.0, 10.0]; 2]);
     Measured {

@@ -42,15 +42,27 @@ impl RayPasses {
         further: &[u32],
     ) -> Result<Self, GpuError> {
         let pass = |entry_point, reads: &[u32]| Pass::new(gpu, text, entry_point, &[reads, further].concat(), data);
-        let planes = shot.lattice.planes(&shot.view, grid);
-        Ok(Self {
+        let mut passes = Self {
             draw: pass("draw", &[0])?,
             refinement: shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?,
             size: shot.view.size,
             rays_across: shot.rays_across,
-            samples_a_row: shot.view.size[0] as f64 * planes.max(1.0),
+            samples_a_row: 0.0,
             is_beauty_alone: layers == [LayerKind::Beauty],
-        })
+        };
+        passes.turn(shot, grid);
+        Ok(passes)
+    }
+
+    /// Whether the passes serve another shot with the same text.
+    pub(crate) fn fit(&self, shot: &Shot) -> bool {
+        self.refinement.is_some() == shot.refine_above.is_some()
+    }
+
+    /// Takes the camera and the rays of another shot.
+    pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
+        self.rays_across = shot.rays_across;
+        self.samples_a_row = self.size[0] as f64 * shot.lattice.planes(&shot.view, grid).max(1.0);
     }
 
     /// Draws rows into the picture's buffer, and copies them to the one that is read back. `further` are the further lists with
@@ -77,6 +89,9 @@ impl RayPasses {
             let most = SAMPLES_AT_ONCE[usize::from(canvas.gpu.is_software())];
             let band = ((most / (self.samples_a_row * at_once as f64)) as usize).max(GROUP as usize);
             for first in pass_rows.clone().step_by(band) {
+                if canvas.is_stopped() {
+                    return Ok(());
+                }
                 let end = (first + band).min(pass_rows.end);
                 let groups = [width, end - first].map(|n| (n as u32).div_ceil(GROUP));
                 block.set("first_row", first as f64);

@@ -43,8 +43,8 @@ pub struct Hiding<'a> {
 }
 
 /// A test of which points an iso-surface hides, for any number of cameras with one projection.
-pub struct HiddenPoints<'g> {
-    gpu: &'g Gpu,
+pub struct HiddenPoints {
+    gpu: Gpu,
     precision: Precision,
     shader: Shader,
     pipeline: wgpu::ComputePipeline,
@@ -54,12 +54,12 @@ pub struct HiddenPoints<'g> {
     grid: Grid,
 }
 
-impl<'g> HiddenPoints<'g> {
+impl HiddenPoints {
     /// Prepares the test for a volume that is already uploaded.
     ///
     /// # Errors
     /// Data that do not fit, a driver that refuses.
-    pub fn new(gpu: &'g Gpu, volume: &Volume, hiding: &Hiding<'_>) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, volume: &Volume, hiding: &Hiding<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volume, hiding, &|text| text)
     }
 
@@ -68,7 +68,7 @@ impl<'g> HiddenPoints<'g> {
     /// # Errors
     /// See [`HiddenPoints::new`].
     pub fn edited(
-        gpu: &'g Gpu,
+        gpu: &Gpu,
         volume: &Volume,
         hiding: &Hiding<'_>,
         edit: &dyn Fn(String) -> String,
@@ -77,7 +77,7 @@ impl<'g> HiddenPoints<'g> {
         let shader = shader(hiding, precision);
         let text = edit(shader.text_of_search(precision));
         let data_layout = data_layout(gpu, &shader)?;
-        let data = bind_data(gpu, std::slice::from_ref(volume), &shader, &data_layout, precision)?.group;
+        let data = bind_data(gpu, std::slice::from_ref(volume), &shader, &data_layout, precision, None)?.group;
         let entries = [list_entry(0, true), list_entry(1, false), list_entry(2, true)];
         let layout = gpu.attempt("the shader", || {
             gpu.device
@@ -86,7 +86,7 @@ impl<'g> HiddenPoints<'g> {
         let pipeline = pipeline(gpu, text, "test", &[&layout, &data_layout])?;
         let params = buffer(gpu, "the parameters", &shader.block.bytes(precision), wgpu::BufferUsages::STORAGE)?;
         let grid = hiding.volume.grid().clone();
-        Ok(Self { gpu, precision, shader, pipeline, layout, data, params, grid })
+        Ok(Self { gpu: gpu.clone(), precision, shader, pipeline, layout, data, params, grid })
     }
 
     /// Returns whether the surface hides each point. A point near the surface is tested at its foot, `in_front` of it in
@@ -95,7 +95,7 @@ impl<'g> HiddenPoints<'g> {
     /// # Errors
     /// Errors of the adapter.
     pub fn hidden(&mut self, view: &View, in_front: f64, points: &[SurfacePoint]) -> Result<Vec<bool>, GpuError> {
-        let (gpu, grid) = (self.gpu, &self.grid);
+        let (gpu, grid) = (&self.gpu, &self.grid);
         let voxel = grid.voxel();
         let block = &mut self.shader.block;
         block.set("in_front", in_front / voxel);

@@ -15,6 +15,7 @@ const GROUP: u32 = 8;
 pub(crate) const MAPS: u32 = 5;
 
 /// The funnel of a cutaway.
+#[derive(PartialEq)]
 struct Funnel {
     sigma: f64,
     /// Pixels of its map across and down.
@@ -117,7 +118,8 @@ pub(crate) struct FunnelPasses {
     group: wgpu::BindGroup,
     depths: wgpu::Buffer,
     maps: wgpu::Buffer,
-    /// Pixels across and down of the widest guard band, and the number of funnels.
+    funnels: Vec<Funnel>,
+    /// Workgroups across and down of the widest guard band, and the number of funnels.
     groups: [u32; 3],
 }
 
@@ -184,7 +186,13 @@ impl FunnelPasses {
             depths,
             maps,
             groups: [across, down, funnels.len() as u32],
+            funnels,
         }))
+    }
+
+    /// Whether passes, or none, are those of another shot.
+    pub(crate) fn fit(passes: Option<&Self>, shot: &Shot) -> bool {
+        funnels(shot).collect::<Vec<_>>() == passes.map_or(&[][..], |passes| &passes.funnels)
     }
 
     /// The maps, as they stand after [`draw`](Self::draw).

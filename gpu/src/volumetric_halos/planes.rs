@@ -247,6 +247,21 @@ impl HaloPlanes {
         Ok(planes)
     }
 
+    /// Whether the images and the passes serve another shot with the same text and layers.
+    pub(crate) fn fit(&self, shot: &Shot) -> bool {
+        let list = &shot.halos.list;
+        image_size(shot) == self.size
+            && list.len() == self.halos.len()
+            && list.iter().any(|halo| halo.spread.median) == self.median.is_some()
+    }
+
+    /// Takes another shot, which [fits](Self::fit).
+    pub(crate) fn change(&mut self, shot: &Shot, grid: &Grid, others: Vec<DVec3>) {
+        self.halos.clone_from(&shot.halos.list);
+        (self.passes, self.other_corners) = (most_passes(&self.halos), others);
+        self.turn(shot, grid);
+    }
+
     /// Takes the camera of another shot.
     pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
         self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.other_corners));
@@ -282,7 +297,7 @@ impl HaloPlanes {
         let of_image = across(self.size.image);
         let image_pixels = (self.size.image[0] * self.size.image[1]) as u64;
         let mut at = 0;
-        loop {
+        while !canvas.is_stopped() {
             // The groups of one submission.
             let mut end = at;
             let mut written = 0;
@@ -324,10 +339,11 @@ impl HaloPlanes {
             })?;
             canvas.report(end as f64 / self.groups.len().max(1) as f64)?;
             if is_last {
-                return Ok(());
+                break;
             }
             at = end;
         }
+        Ok(())
     }
 
     /// From the seeds of groups that end to intensities.

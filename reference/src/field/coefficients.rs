@@ -99,7 +99,7 @@ impl<R: Real> Coefficients<R> {
     /// The numbers times a factor, without the constant.
     pub(super) fn padded(&self, factor: f64) -> PaddedNumbers {
         let data = self.data.iter().map(|c| c.to_f64() * factor).collect();
-        PaddedNumbers { data, dims: self.dims, pad: self.pad }
+        PaddedNumbers::new(data, self.dims, self.pad)
     }
 
     /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds, for each sample of a line,

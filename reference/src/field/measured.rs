@@ -28,8 +28,8 @@ impl<R: Real> Field<'_, R> {
         let mut base = self.to_value(self.stencils.lowest()).to_f64();
         let [lo, hi] = self.volume.range();
         if is_voxels && hi - lo > FAR * lo.abs().max(hi.abs()) {
-            numbers.data.iter_mut().for_each(|c| *c += base);
-            base = 0.0;
+            let values = numbers.data.into_iter().map(|c| c + base).collect();
+            (numbers, base) = (PaddedNumbers::new(values, numbers.dims, numbers.pad), 0.0);
         }
         let of_gradient = rung >= Rung::Gradient && self.how.gradient != GradientEstimator::Analytic;
         let of_hessian = rung >= Rung::Hessian && self.how.hessian == HessianEstimator::Central;

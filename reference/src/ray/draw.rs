@@ -5,6 +5,7 @@ use super::composite::{Cast, Sums};
 use super::lattice::IndexRay;
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
+use super::progress::Progress;
 use super::tile_work::{CastAll, TileRays, TileWork};
 use crate::number::Real;
 use drypoint_scene::backdrop::Backdrop;
@@ -95,7 +96,7 @@ pub(super) fn draw<R: Real>(
     casting: &Casting<'_>,
     background: Backdrop<'_>,
     [tile, band]: [usize; 2],
-    progress: &(dyn Fn(f64) + Sync),
+    progress: Progress<'_>,
 ) -> (Picture, Vec<Option<Box<Sums>>>, Counts) {
     let [width, height] = prepared.view.size;
     let [across, down] = tiles_across(prepared, tile);
@@ -112,6 +113,9 @@ pub(super) fn draw<R: Real>(
     sums.resize_with(if drawn.keeps_sums { width * height } else { 0 }, || None);
     let whole = in_blocks([tile; 2]);
     for first in (0..across * down).step_by(batch) {
+        if progress.is_stopped() {
+            break;
+        }
         let batch = first..(first + batch).min(across * down);
         let share = [first, batch.end].map(|tile| tile as f64 / (across * down) as f64);
         let cast_before = match casting {
@@ -125,10 +129,11 @@ pub(super) fn draw<R: Real>(
         let draw = |t: usize, cast_before: Option<(Vec<Cast>, Counts)>| {
             let place = TilePlace::new(prepared, t, tile);
             match (casting, cast_before) {
+                (Casting::ByTile(_), None) if progress.is_stopped() => place.not_drawn(),
                 (Casting::ByTile(cast_all), None) => {
                     let drawn = draw_tile(prepared, drawn, *cast_all, background, place, &whole);
                     let n = 1 + done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-                    progress(n as f64 / (across * down) as f64);
+                    progress.tell(n as f64 / (across * down) as f64);
                     drawn
                 }
                 (_, before) => {
@@ -184,8 +189,7 @@ fn draw_tile<R: Real>(
     place: TilePlace,
     whole: &[[usize; 2]],
 ) -> TilePixels {
-    let TilePlace { at: [x, y], size } = place;
-    let mut tile = TilePixels { x, y, size, pixels: Vec::new(), sums: Vec::new(), counts: Counts::default() };
+    let (TilePlace { at: [x, y], size }, mut tile) = (place, place.not_drawn());
     let mut boxes = place.boxes(prepared);
     let blocks = blocks_of(size, whole);
     let behind = behind(background, prepared.view.size[0]);
@@ -274,6 +278,12 @@ impl TilePlace {
         let [across, _] = tiles_across(prepared, side);
         let at = [index % across * side, index / across * side];
         Self { at, size: [0, 1].map(|a| side.min(prepared.view.size[a] - at[a])) }
+    }
+
+    /// The tile before its rays are cast.
+    fn not_drawn(self) -> TilePixels {
+        let Self { at: [x, y], size } = self;
+        TilePixels { x, y, size, pixels: Vec::new(), sums: Vec::new(), counts: Counts::default() }
     }
 
     /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]); the first parts

@@ -21,6 +21,7 @@ mod prepared_halos;
 mod prepared_meshes;
 mod prepared_seeds;
 mod prepared_surface;
+mod progress;
 mod refinement;
 mod render;
 mod sample;

@@ -7,6 +7,7 @@ use super::composite::Sums;
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
+use super::progress::Progress;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 use drypoint_scene::backdrop::Backdrop;
@@ -36,7 +37,7 @@ pub(super) fn draw_refined<R: Real>(
     cast_all: &dyn CastAll,
     background: Backdrop<'_>,
     side: usize,
-    progress: &(dyn Fn(f64) + Sync),
+    progress: Progress<'_>,
 ) -> (Picture, Counts) {
     // The first picture, half of the progress. It has a beauty, by which edges are found.
     let mut layers = prepared.layers.clone();
@@ -44,9 +45,9 @@ pub(super) fn draw_refined<R: Real>(
         layers.push(LayerKind::Beauty);
     }
     let drawn = Drawn { layers: &layers, keeps_sums: keeps_sums(&layers) };
-    let half = |share: f64| progress(0.5 * share);
+    let [first_half, second_half] = [[0.0, 0.5], [0.5, 1.0]].map(|half| progress.part(half));
     let (mut picture, sums, mut counts) =
-        draw(prepared, &drawn, &Casting::ByTile(cast_all), background, [side, 0], &half);
+        draw(prepared, &drawn, &Casting::ByTile(cast_all), background, [side, 0], first_half);
     // The pixels at edges.
     let beauty = picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels);
     let refined = pixels_at_edges(beauty, prepared.view.size, contrast);
@@ -67,8 +68,11 @@ pub(super) fn draw_refined<R: Real>(
             refined: &refined,
         };
         let refine = |tile: usize| {
+            if progress.is_stopped() {
+                return RefinedTile::default();
+            }
             let refined = first.refine(prepared, &layers, cast_all, background, TilePlace::new(prepared, tile, side));
-            progress(0.5 + 0.5 * (1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / tiles as f64);
+            second_half.tell((1 + done.fetch_add(1, Ordering::Relaxed)) as f64 / tiles as f64);
             refined
         };
         let refined = parallel::map(tiles.min(from + batch) - from, &|tile| refine(from + tile));
@@ -108,6 +112,7 @@ struct FirstPicture<'p> {
 }
 
 /// The refined pixels of a tile.
+#[derive(Default)]
 struct RefinedTile {
     /// Their places in the picture, counted row by row.
     pixels: Vec<usize>,

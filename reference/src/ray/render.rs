@@ -9,6 +9,7 @@ use super::merged;
 use super::pick::{Picked, pick};
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
+use super::progress::Progress;
 use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
 use crate::field::Sampler;
@@ -22,6 +23,8 @@ use drypoint_scene::inputs::Inputs;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
@@ -41,6 +44,8 @@ pub struct Renderer<'a> {
     tile: usize,
     band: usize,
     order: Order,
+    /// What stops frames.
+    stop: Arc<AtomicBool>,
 }
 
 /// The order in which samples are visited. Without halos it shows nowhere, neither in the picture nor in the counts; with
@@ -118,12 +123,27 @@ impl<'a> Renderer<'a> {
         };
         let labels = inputs.main.labels;
         let labels = labels.map(|labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup));
-        Self { ready, background: inputs.background, labels, counts, tile: TILE, band: BAND, order }
+        Self {
+            ready,
+            background: inputs.background,
+            labels,
+            counts,
+            tile: TILE,
+            band: BAND,
+            order,
+            stop: Arc::default(),
+        }
     }
 
     /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
     pub fn with_tiles(self, side: usize) -> Self {
         Self { tile: side.clamp(1, 1024), ..self }
+    }
+
+    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
+    /// soon: an unfinished picture.
+    pub fn stop_by(&mut self, stop: Arc<AtomicBool>) {
+        self.stop = stop;
     }
 
     /// Sets about how many rays wait for each other with halos; at least a row of tiles does. It shows nowhere.
@@ -226,6 +246,7 @@ impl<'a> Renderer<'a> {
     /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let start = Instant::now();
+        let progress = Progress { hear: progress, stop: &self.stop, between: [0.0, 1.0] };
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::F32(p) => self.draw(p, &p.object.field, progress),
@@ -255,7 +276,7 @@ impl<'a> Renderer<'a> {
         &self,
         prepared: &Prepared<'_, R>,
         sampler: &S,
-        progress: &(dyn Fn(f64) + Sync),
+        progress: Progress<'_>,
     ) -> (Picture, Counts) {
         let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
         let draw = |casting: Casting<'_>| {
@@ -269,10 +290,9 @@ impl<'a> Renderer<'a> {
         };
         if let Some(halos) = &prepared.halos {
             return draw(Casting::ByBand(&|band: Band| {
-                let [from, to] = band.share;
-                let progress = |share: f64| progress(from + (to - from) * share);
+                let progress = progress.part(band.share);
                 let tiles = rays_of_tiles(prepared, self.tile, &band);
-                plane_order::cast_with_halos((prepared, halos), tiles, band.region, &progress)
+                plane_order::cast_with_halos((prepared, halos), tiles, band.region, progress)
             }));
         }
         match (&self.ready, self.order) {

@@ -9,6 +9,7 @@ use crate::number::Real;
 use crate::ray::draw::Region;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
+use crate::ray::progress::Progress;
 use crate::ray::tile_work::{TileRays, TileWork};
 use crate::volumetric_halos::HaloPlanes;
 use drypoint_scene::counts::Counts;
@@ -59,7 +60,7 @@ pub(crate) fn cast_with_halos<R: Real>(
     (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
     tiles: Vec<TileRays>,
     region: Region,
-    progress: &(dyn Fn(f64) + Sync),
+    progress: Progress<'_>,
 ) -> Casts {
     let mut planes = HaloPlanes::new(&halos.list, region.size);
     let watched = halos.watched();
@@ -79,7 +80,7 @@ pub(crate) fn cast_with_halos<R: Real>(
         let next_seeds = seeds.next();
         let is_waiting = planes.is_waiting();
         let seeds_count = planes.outlive_samples() && next_seeds != ENDED;
-        if !(is_waiting && planes.outlive_samples() || next != ENDED || seeds_count) {
+        if progress.is_stopped() || !(is_waiting && planes.outlive_samples() || next != ENDED || seeds_count) {
             break;
         }
         let begin = if is_waiting { ended + 1 } else { next.min(next_seeds) };
@@ -109,7 +110,7 @@ pub(crate) fn cast_with_halos<R: Real>(
         }
         planes.end(end);
         ended = end;
-        progress((ended.min(last) - first) as f64 / (last - first).max(1) as f64);
+        progress.tell((ended.min(last) - first) as f64 / (last - first).max(1) as f64);
     }
     counts.halo_passes += planes.passes();
     let mut casts: Casts = parallel::map_of(tiles, &|_, tile| tile.finish());

@@ -1,0 +1,37 @@
+//! The progress of a frame, and its end before all is drawn.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The progress of a frame or of a part of it.
+#[derive(Clone, Copy)]
+pub(crate) struct Progress<'p> {
+    /// Hears the share of the frame that is done, from any thread.
+    pub(crate) hear: &'p (dyn Fn(f64) + Sync),
+    /// What stops the frame.
+    pub(crate) stop: &'p AtomicBool,
+    /// The shares of the frame between which the part lies.
+    pub(crate) between: [f64; 2],
+}
+
+impl Progress<'_> {
+    /// The progress of a part between two shares of this one.
+    pub(crate) fn part(self, shares: [f64; 2]) -> Self {
+        let between = shares.map(|share| self.of_frame(share));
+        Self { between, ..self }
+    }
+
+    /// Tells the share that is done.
+    pub(crate) fn tell(self, share: f64) {
+        (self.hear)(self.of_frame(share));
+    }
+
+    /// Whether nothing more is drawn.
+    pub(crate) fn is_stopped(self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn of_frame(self, share: f64) -> f64 {
+        let [from, to] = self.between;
+        from + (to - from) * share
+    }
+}

@@ -1,0 +1,126 @@
+//! Frames of a volume, by the reference or on a graphics card.
+
+use crate::Failure;
+use crate::gpu::Gpu;
+#[cfg(feature = "gpu")]
+use crate::gpu::GpuFrames;
+use crate::job::{Job, KnobVariant, render_failure};
+use drypoint_reference::ray::Renderer;
+use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragments;
+use drypoint_scene::picture::Picture;
+use drypoint_scene::shot::Shot;
+use drypoint_scene::tables::Scene;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+/// Any number of frames of one scene, from any camera with its lens.
+pub trait Frames {
+    /// Returns about how many samples a frame has without skipping.
+    fn samples(&self) -> f64;
+
+    /// Returns n of the n×n rays of a pixel, before it is refined.
+    fn rays_across(&self) -> usize;
+
+    /// Puts lines inside the frames that follow, or takes them out.
+    ///
+    /// # Errors
+    /// Lines in a scene whose plan has none inside the volume.
+    fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure>;
+
+    /// Takes the camera and the lights of another shot of the scene. See [`Shot::seen_from`].
+    ///
+    /// # Errors
+    /// A camera too far away.
+    fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
+
+    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
+    /// soon: an unfinished picture. A frame is paused by a `progress` that waits.
+    fn stop_by(&mut self, stop: Arc<AtomicBool>);
+
+    /// Draws a frame, with its own counts. `progress` hears the share that is done, from any thread.
+    ///
+    /// # Errors
+    /// Errors of the adapter.
+    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure>;
+
+    /// Draws a frame where a viewer has it, and waits for it: the reference in memory, a graphics card in a texture. Returns
+    /// the seconds of its rays by the adapter's clock; none without one.
+    ///
+    /// # Errors
+    /// Errors of the adapter, and a picture without a beauty.
+    fn show(&mut self) -> Result<Option<f64>, Failure>;
+}
+
+/// Frames of the reference.
+pub struct ReferenceFrames<'a> {
+    renderer: Renderer<'a>,
+    scene: &'a Scene,
+}
+
+impl<'a> ReferenceFrames<'a> {
+    /// Frames of a renderer of a scene.
+    pub fn new(renderer: Renderer<'a>, scene: &'a Scene) -> Self {
+        Self { renderer, scene }
+    }
+}
+
+impl Frames for ReferenceFrames<'_> {
+    fn samples(&self) -> f64 {
+        self.renderer.samples()
+    }
+
+    fn rays_across(&self) -> usize {
+        self.renderer.rays_across()
+    }
+
+    fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure> {
+        self.renderer.merge(lines);
+        Ok(())
+    }
+
+    fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
+        self.renderer.turn(shot).map_err(|error| render_failure(&error, self.scene))
+    }
+
+    fn stop_by(&mut self, stop: Arc<AtomicBool>) {
+        self.renderer.stop_by(stop);
+    }
+
+    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
+        Ok(self.renderer.again(progress))
+    }
+
+    fn show(&mut self) -> Result<Option<f64>, Failure> {
+        self.renderer.again(&|_| ());
+        Ok(None)
+    }
+}
+
+/// Prepares frames of a job, or of its scene with other knobs, on a graphics card or by the reference. The cost of preparing
+/// goes to `counts`.
+///
+/// # Errors
+/// Same errors as [`Job::renderer`], and those of the adapter.
+pub(crate) fn frames<'a>(
+    job: &'a Job,
+    knobs: Option<&'a KnobVariant>,
+    card: Option<&Gpu>,
+    counts: &mut Counts,
+) -> Result<Box<dyn Frames + 'a>, Failure> {
+    match card {
+        None => {
+            let renderer = knobs.map_or_else(|| job.renderer(), |knobs| job.renderer_of(knobs))?;
+            counts.add(renderer.prepared());
+            Ok(Box::new(ReferenceFrames::new(renderer, &job.scene)))
+        }
+        #[cfg(feature = "gpu")]
+        Some(gpu) => {
+            let frames = knobs.map_or_else(|| GpuFrames::new(job, gpu), |knobs| GpuFrames::of(job, gpu, knobs))?;
+            counts.bytes.insert("volume on the card".into(), frames.bytes());
+            Ok(Box::new(frames))
+        }
+        #[cfg(not(feature = "gpu"))]
+        Some(gpu) => match *gpu {},
+    }
+}
