@@ -7,18 +7,19 @@ mod specimen;
 
 use drypoint::cost::median;
 use drypoint::gpu::{Gpu, GpuFrames};
-use specimen::{STYLES, job};
+use specimen::{COLOURS, STYLES, job};
 use std::time::Instant;
 
 /// Turns of each change.
 const TURNS: usize = 5;
 
 /// Changes of the scene: a name, and texts before and after it.
-const CHANGES: [(&str, &str, &str); 5] = [
+const CHANGES: [(&str, &str, &str); 6] = [
     ("a clip plane", "point = [120, 0, 0]", "point = [140, 0, 0]"),
     ("an opacity", "opacity = 0.9", "opacity = 0.7"),
     ("the thickness of contours", "[contours]", "[contours]\nthickness = \"3 voxels\""),
     ("contours off", "[contours]", ""),
+    ("colours for styles", STYLES, COLOURS),
     ("the kernel", "[transfer]", "kernel = \"bspline\"\n[transfer]"),
 ];
 
