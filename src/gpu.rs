@@ -17,7 +17,6 @@ use drypoint_scene::plan::{Pass, Plan};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::Scene;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// A job whose volume lies on a graphics card.
 pub struct GpuJob<'a> {
@@ -213,10 +212,8 @@ impl<'a> GpuFrames<'a> {
     /// # Errors
     /// Errors of the adapter.
     pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<(Picture, Counts), Failure> {
-        let start = Instant::now();
         let picture = self.renderer.frame(progress).map_err(|error| failure(&error, self.job))?;
         let mut counts = Counts::default();
-        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         let on_card = self.renderer.seconds().map_err(|error| failure(&error, self.job))?;
         counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
         Ok((picture, counts))

@@ -10,6 +10,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::Shot;
+use std::time::Instant;
 
 /// A renderer of the volume.
 pub(crate) enum VolumeRenderer<'a> {
@@ -31,8 +32,10 @@ impl<'a> VolumeRenderer<'a> {
     ) -> Result<Self, Failure> {
         match card {
             None => {
+                let start = Instant::now();
                 let renderer = knobs.map_or_else(|| job.renderer(), |knobs| job.renderer_of(knobs))?;
                 counts.add(renderer.prepared());
+                counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
                 Ok(Self::Reference(Box::new(renderer)))
             }
             #[cfg(feature = "gpu")]
@@ -83,13 +86,16 @@ impl<'a> VolumeRenderer<'a> {
         }
     }
 
-    /// Renders a frame, with its own counts.
+    /// Renders a frame, with its own counts and seconds.
     pub(crate) fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
-        match self {
-            Self::Reference(renderer) => Ok(renderer.again(progress)),
+        let start = Instant::now();
+        let (picture, mut counts) = match self {
+            Self::Reference(renderer) => renderer.again(progress),
             #[cfg(feature = "gpu")]
-            Self::Gpu(frames) => frames.frame(progress),
-        }
+            Self::Gpu(frames) => frames.frame(progress)?,
+        };
+        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
+        Ok((picture, counts))
     }
 
     /// Draws a frame where a viewer has it: the reference in memory, a graphics card in its texture.

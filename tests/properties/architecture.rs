@@ -39,6 +39,14 @@ fn the_reference_opens_no_file() {
     assert_eq!(lines_with("reference/src", &["std::fs", "File::", "OpenOptions"]), [""; 0]);
 }
 
+/// A clock of `std::time` panics in wasm32-unknown-unknown.
+#[test]
+fn no_crate_below_src_reads_a_clock() {
+    for crate_below in ["scene/src", "reference/src", "gpu/src", "output/src"] {
+        assert_eq!(lines_with(crate_below, &["Instant", "SystemTime"]), [""; 0]);
+    }
+}
+
 #[test]
 fn output_knows_no_volume() {
     assert_eq!(lines_with("output/src", &["scene::volume", "scene::phantom", "scene::transfer"]), [""; 0]);
