@@ -39,6 +39,7 @@ pub mod marking;
 pub mod picking;
 pub mod stippling;
 pub mod stroking;
+#[cfg(feature = "plots")]
 pub mod tone_plot;
 #[cfg(feature = "gpu")]
 pub mod validate;
