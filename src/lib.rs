@@ -16,8 +16,8 @@
 //! | what its accuracy costs | [`cost::sweep`] |
 //! | all of the command | `command::run` |
 //!
-//! The programs in `examples/` render into a buffer, write dots as SVG, make a volume from a formula, and compare two
-//! pictures.
+//! The programs in `examples/` render into a buffer and to standard output, write dots as SVG, make a volume from a
+//! formula, and compare two pictures.
 //!
 //! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
