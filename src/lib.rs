@@ -9,6 +9,7 @@
 //! | a scene from a file or a text | [`scene::file::load`], [`scene::file::parse`] |
 //! | a scene for a bare volume | [`scene::volume::read::read`], [`job::bare`] |
 //! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
+//! | the same from files in memory | [`job::Job::load_for`] with a [`scene::source::Source`] |
 //! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
 //! | a file | [`job::Job::write`] |
 //! | the place that is seen at a pixel | [`picking::pick_pixel`] |

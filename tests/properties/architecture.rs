@@ -39,6 +39,13 @@ fn the_reference_opens_no_file() {
     assert_eq!(lines_with("reference/src", &["std::fs", "File::", "OpenOptions"]), [""; 0]);
 }
 
+#[test]
+fn the_files_of_a_scene_are_opened_by_its_source() {
+    let mut found = lines_with("scene/src", &["fs::", "File::open", "OpenOptions"]);
+    found.retain(|line| !["source.rs", "atomic.rs"].iter().any(|file| line.contains(file)));
+    assert_eq!(found, [""; 0]);
+}
+
 /// A clock of `std::time` panics in wasm32-unknown-unknown.
 #[test]
 fn no_crate_below_src_reads_a_clock() {

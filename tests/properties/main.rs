@@ -19,5 +19,6 @@ mod planes;
 mod refinement;
 mod scenes;
 mod skipping;
+mod sources;
 mod subset;
 mod weight;
