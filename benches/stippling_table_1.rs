@@ -9,8 +9,10 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, parse};
+use drypoint::scene::source::Disk;
 use drypoint::scene::tables::Orbit;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Frames, after one that warms up: the camera turns from one to the next.
@@ -79,7 +81,7 @@ fn frames(volume: &str, stipples: &str) -> Result<Measured, String> {
         format!("drypoint = 1\n[volume]\nfile = \"{volume}\"\n[picture]\nsize = [500, 500]\n[stipples]\n{stipples}");
     let mut scene = parse(&file, Path::new("table_1.toml"), &Overrides::default()).map_err(|e| e.to_string())?;
     scene.orbit = Some(Orbit { frames: 36, degrees: 360.0, ..Orbit::default() });
-    let job = Job::load_for(scene, RenderTarget::Marks).map_err(|e| e.to_string())?;
+    let job = Job::load_for(scene, RenderTarget::Marks, Arc::new(Disk)).map_err(|e| e.to_string())?;
     let mut counts = Counts::default();
     let start = Instant::now();
     let marking = Marking::new(&job, &mut counts, &|_| ()).map_err(|e| e.to_string())?;

@@ -7,8 +7,10 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::source::Disk;
 use std::error::Error;
 use std::path::Path;
+use std::sync::Arc;
 
 const SCENE: &str = r#"
 drypoint = 1
@@ -34,7 +36,7 @@ snap = "edge"
 pub(crate) fn run(file: &Path) -> Result<usize, Box<dyn Error>> {
     let scene = parse(SCENE, Path::new("part.toml"), &Overrides::default())?;
     // Only what dots need is loaded.
-    let job = Job::load_for(scene, RenderTarget::Points)?;
+    let job = Job::load_for(scene, RenderTarget::Points, Arc::new(Disk))?;
     // Dots are placed once, for any number of frames.
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_progress| ())?;

@@ -20,6 +20,7 @@ use frame_writer::FrameWriter;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
 /// A job made ready for any number of frames.
 pub struct Drawing<'a> {
@@ -150,8 +151,10 @@ impl<'a> Drawing<'a> {
                 if let Some(shot) = &self.shot {
                     renderer.turn(&shot.seen_from(view))?;
                 }
+                let start = Instant::now();
                 let (picture, own) = renderer.frame(progress)?;
                 counts.add(&own);
+                counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
                 Some(picture)
             }
             None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),

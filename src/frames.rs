@@ -13,6 +13,7 @@ use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
 /// Any number of frames of one scene, from any camera with its lens.
 pub trait Frames {
@@ -38,7 +39,7 @@ pub trait Frames {
     /// soon: an unfinished picture. A frame is paused by a `progress` that waits.
     fn stop_by(&mut self, stop: Arc<AtomicBool>);
 
-    /// Draws a frame, with its own counts. `progress` hears the share that is done, from any thread.
+    /// Draws a frame, with its own counts, `progress` hears the share that is done, from any thread.
     ///
     /// # Errors
     /// Errors of the adapter.
@@ -110,8 +111,10 @@ pub(crate) fn frames<'a>(
 ) -> Result<Box<dyn Frames + 'a>, Failure> {
     match card {
         None => {
+            let start = Instant::now();
             let renderer = knobs.map_or_else(|| job.renderer(), |knobs| job.renderer_of(knobs))?;
             counts.add(renderer.prepared());
+            counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
             Ok(Box::new(ReferenceFrames::new(renderer, &job.scene)))
         }
         #[cfg(feature = "gpu")]

@@ -22,7 +22,6 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::tables::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// A job whose volume lies on a graphics card.
 pub struct GpuJob<'a> {
@@ -254,10 +253,8 @@ impl Frames for GpuFrames {
     }
 
     fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
-        let start = Instant::now();
         let picture = self.renderer.frame(progress).map_err(|error| self.failure(&error))?;
         let mut counts = Counts::default();
-        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         let on_card = self.renderer.seconds().map_err(|error| self.failure(&error))?;
         counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
         Ok((picture, counts))

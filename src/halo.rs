@@ -8,6 +8,7 @@ use drypoint_reference::volumetric_halos::{Border, HaloField, Process, SpreadPar
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::memory;
 use drypoint_scene::picture::Picture;
+use drypoint_scene::source::Disk;
 use drypoint_scene::style::SourcePicture;
 use std::path::Path;
 
@@ -27,7 +28,7 @@ impl IntensityMap {
     /// # Errors
     /// A file that cannot be read, is no such picture, or does not fit into memory.
     pub fn read(path: &Path) -> Result<Self, Failure> {
-        let bytes = memory::read(path).map_err(|source| {
+        let bytes = memory::read(&Disk, path).map_err(|source| {
             Failure::picture(&OutputError::Io { path: path.into(), action: "read", source }, path.display())
         })?;
         let picture =

@@ -51,6 +51,7 @@ use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
+use drypoint_scene::source::{Disk, Source};
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
 use drypoint_scene::transfer::{Function, node_values};
@@ -80,6 +81,8 @@ pub struct Job {
     /// Counts of loading, such as voxels read for an automatic function. They are no part of a frame's counts.
     pub counts: Counts,
     target: RenderTarget,
+    /// The source of the files that the scene names.
+    pub(crate) source: Arc<dyn Source>,
     /// The scene's camera in numbers.
     view: Result<View, ViewError>,
     /// The data that the material names, and the function of the volume or of the colours of dots.
@@ -127,31 +130,31 @@ pub struct KnobVariant {
 }
 
 impl Job {
-    /// Loads the volume, the styles and the background of a scene. A transfer function without nodes is found from the
-    /// data.
+    /// Loads the volume, the styles and the background of a scene from the disk. A transfer function without nodes is
+    /// found from the data.
     ///
     /// # Errors
     /// Data that cannot be read or do not exist, or a scene that draws nothing.
     pub fn load(scene: Scene) -> Result<Self, Failures> {
-        Self::load_for(scene, RenderTarget::Picture)
+        Self::load_for(scene, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Loads the part of a scene that `target` needs, as [`Job::load`] does.
+    /// Loads the part of a scene that `target` needs, as [`Job::load`] does, with the files of `source`.
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
-    pub fn load_for(mut scene: Scene, target: RenderTarget) -> Result<Self, Failures> {
-        match load_volume(&scene.volume, &scene.given) {
-            Ok(volume) => Self::with_volume_for(scene, volume, target),
+    pub fn load_for(mut scene: Scene, target: RenderTarget, source: Arc<dyn Source>) -> Result<Self, Failures> {
+        match load_volume(&*source, &scene.volume, &scene.given) {
+            Ok(volume) => Self::with_volume_for(scene, volume, target, source),
             Err(failure) => {
                 // Other faults are reported together with the volume's.
                 let mut others = Vec::new();
                 let plan = plan_for(&scene, target);
                 if calls_for_function(&plan, &scene) {
-                    styles(&scene, scene.transfer.iter().flat_map(named), &mut others);
+                    styles(&*source, &scene, scene.transfer.iter().flat_map(named), &mut others);
                 }
-                lighting_table(&mut scene, &plan, &mut others);
-                background(&scene, target, &mut others);
+                lighting_table(&*source, &mut scene, &plan, &mut others);
+                background(&*source, &scene, target, &mut others);
                 Err(Failures::new(failure, others))
             }
         }
@@ -162,10 +165,10 @@ impl Job {
     /// # Errors
     /// Same errors as [`Job::load`].
     pub fn with_volume(scene: Scene, volume: impl Into<Arc<Volume>>) -> Result<Self, Failures> {
-        Self::with_volume_for(scene, volume, RenderTarget::Picture)
+        Self::with_volume_for(scene, volume, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Loads what `target` needs for a volume that is already loaded, as [`Job::load`] does.
+    /// Loads what `target` needs for a volume that is already loaded, as [`Job::load_for`] does.
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
@@ -173,6 +176,7 @@ impl Job {
         mut scene: Scene,
         volume: impl Into<Arc<Volume>>,
         target: RenderTarget,
+        source: Arc<dyn Source>,
     ) -> Result<Self, Failures> {
         let volume = volume.into();
         let given = Given { transfer: scene.transfer.clone(), halos: scene.halos.clone() };
@@ -202,9 +206,9 @@ impl Job {
         // Data that the scene names, and settings that it leaves to them. All faults are reported together.
         let (mut counts, mut failures) = (Counts::default(), Vec::new());
         find_iso_values(&mut scene, &plan, &volume, &mut counts);
-        let assets = Assets::load(&mut scene, &mut plan, &volume, None, &mut counts, &mut failures);
-        let background = background(&scene, target, &mut failures);
-        let meshes = if plan.has_pass(Pass::Rays) { meshes(&scene, &mut failures) } else { Vec::new() };
+        let assets = Assets::load(&*source, &mut scene, &mut plan, &volume, None, &mut counts, &mut failures);
+        let background = background(&*source, &scene, target, &mut failures);
+        let meshes = if plan.has_pass(Pass::Rays) { meshes(&*source, &scene, &mut failures) } else { Vec::new() };
         Failures::check(failures)?;
         let volume = match scene.volume.parts {
             None => volume,
@@ -214,7 +218,7 @@ impl Job {
             }
         };
         let objects = Objects::default();
-        let mut job = Self { scene, plan, volume, counts, target, view, assets, meshes, background, objects };
+        let mut job = Self { scene, plan, volume, counts, target, source, view, assets, meshes, background, objects };
         if job.draws_volume() && !job.scene.objects.is_empty() {
             job.objects = Objects::load(&job, &given)?;
             job.plan.warnings.extend(job.objects.warnings(&job.scene));

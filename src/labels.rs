@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use drypoint_reference::labels::Labels;
+use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::VolumeTable;
 use drypoint_scene::volume::labels::{LabelError, LabelNames, LabelVolume};
@@ -21,10 +22,10 @@ impl SceneLabels {
     /// Loads the labels of a scene's `[volume]`, whose data are given. Labels on the grid of the data's file are read
     /// where the data are ([VOL-1]); those on another grid are read whole. Errors go to `failures`. Call this only if
     /// an effect reads labels ([PLAN-1]).
-    pub fn load(table: &VolumeTable, data: &Volume, failures: &mut Vec<Failure>) -> Self {
+    pub fn load(source: &dyn Source, table: &VolumeTable, data: &Volume, failures: &mut Vec<Failure>) -> Self {
         let mut wrong = |failure| failures.push(failure);
-        let volume = table.labels.as_ref().and_then(|path| volume(path, table, data).map_err(&mut wrong).ok());
-        let names = table.label_names.as_ref().and_then(|path| names(path).map_err(&mut wrong).ok());
+        let volume = table.labels.as_ref().and_then(|path| volume(source, path, table, data).map_err(&mut wrong).ok());
+        let names = table.label_names.as_ref().and_then(|path| names(source, path).map_err(&mut wrong).ok());
         Self { volume, names: names.unwrap_or_default() }
     }
 
@@ -37,28 +38,29 @@ impl SceneLabels {
     }
 }
 
-fn volume(path: &Path, table: &VolumeTable, data: &Volume) -> Result<LabelVolume, Failure> {
+fn volume(source: &dyn Source, path: &Path, table: &VolumeTable, data: &Volume) -> Result<LabelVolume, Failure> {
     let beside_data = |grid: &Grid, anatomy| {
         let kept = table.subset.of(grid.dims()).ok()?;
         let grid = kept.grid(&Anatomy::between(grid, anatomy, data.anatomy())).ok()?;
         grid.coincides(data.grid()).then_some(kept)
     };
     let choose = |grid: &Grid, anatomy| Ok(beside_data(grid, anatomy).unwrap_or(KeptVoxels::all(grid.dims())));
-    LabelVolume::new(&read::read_part(path, None, &choose)?).map_err(|error| {
+    LabelVolume::new(&read::read_part(source, path, None, &choose)?).map_err(|error| {
         let LabelError::NotAnId { voxel: [x, y, z], .. } = error;
         let place = format!("{}, voxel ({x}, {y}, {z})", path.display());
         Failure::new(error, place, "name a volume of labels, not a scan, with volume.labels")
     })
 }
 
-fn names(path: &Path) -> Result<LabelNames, Failure> {
-    LabelNames::read(path).map_err(|error| Failure::new(error.what(), error.place(), error.remedy()))
+fn names(source: &dyn Source, path: &Path) -> Result<LabelNames, Failure> {
+    LabelNames::read(source, path).map_err(|error| Failure::new(error.what(), error.place(), error.remedy()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use drypoint_scene::glam::{DMat3, DVec3};
+    use drypoint_scene::source::Disk;
     use drypoint_scene::tables::VolumeSource;
     use drypoint_scene::volume::Voxels;
     use drypoint_scene::volume::write::write_nrrd;
@@ -76,7 +78,7 @@ mod tests {
         (table.labels, table.label_names) = (Some(labels.clone()), Some(names.clone()));
         let load = || {
             let mut failures = Vec::new();
-            let named = SceneLabels::load(&table, &row(0.0, Voxels::U8(vec![0; 3])), &mut failures);
+            let named = SceneLabels::load(&Disk, &table, &row(0.0, Voxels::U8(vec![0; 3])), &mut failures);
             (named, failures)
         };
         write_nrrd(&row(0.0, Voxels::F32(vec![0.0, 2.0, 2.5])), &labels).unwrap();

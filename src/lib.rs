@@ -9,6 +9,7 @@
 //! | a scene from a file or a text | [`scene::file::load`], [`scene::file::parse`] |
 //! | a scene for a bare volume | [`scene::volume::read::read`], [`job::bare`] |
 //! | everything that it names | [`job::Job::load`], [`job::Job::with_volume`] |
+//! | the same from files in memory | [`job::Job::load_for`] with a [`scene::source::Source`] |
 //! | a picture, and what it took | [`job::Job::renderer`], then [`reference::ray::Renderer::frame`] |
 //! | a file | [`job::Job::write`] |
 //! | the place that is seen at a pixel | [`picking::pick_pixel`] |
@@ -17,8 +18,8 @@
 //! | what its accuracy costs | [`cost::sweep`] |
 //! | all of the command | `command::run` |
 //!
-//! The programs in `examples/` render into a buffer, write dots as SVG, make a volume from a formula, and compare two
-//! pictures.
+//! The programs in `examples/` render into a buffer and to standard output, write dots as SVG, make a volume from a
+//! formula, and compare two pictures.
 //!
 //! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
@@ -41,6 +42,7 @@ pub mod marking;
 pub mod picking;
 pub mod stippling;
 pub mod stroking;
+#[cfg(feature = "plots")]
 pub mod tone_plot;
 #[cfg(feature = "gpu")]
 pub mod validate;

@@ -17,6 +17,7 @@ use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::{Points, SurfacePoint};
 use drypoint_scene::shot::Clipping;
+use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Scene, Stipples};
 use drypoint_scene::tone::Tone;
@@ -265,7 +266,7 @@ impl<'a> StippleSetup<'a> {
         let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
         let mut setting = Self { job, scene, stipples, page, first, near, size, square, tone: None };
         setting.tone = match setting.pen_tone() {
-            Some(path) => Some(tone(path)?),
+            Some(path) => Some(tone(&*job.source, path)?),
             None => (setting.stipples.k_max == PointsPerPixel::Auto).then(Tone::ideal),
         };
         Ok(setting)
@@ -314,9 +315,9 @@ fn hiding<'a>(job: &'a Job, scene: &Scene) -> Result<Option<(Field<'a, f64>, f64
 ///
 /// # Errors
 /// A file that cannot be read, or a line that is no row of a step wedge.
-pub fn tone(path: &Path) -> Result<Tone, Failure> {
+pub fn tone(source: &dyn Source, path: &Path) -> Result<Tone, Failure> {
     let remedy = "the command wedge writes the table; fill in what was measured";
-    Tone::read(path).map_err(|error| Failure::new(&error, error.place(), remedy))
+    Tone::read(source, path).map_err(|error| Failure::new(&error, error.place(), remedy))
 }
 
 fn failure(job: &Job, error: &StippleError) -> Failure {

@@ -2,6 +2,7 @@
 
 #![no_main]
 
+use drypoint_scene::source::Disk;
 use drypoint_fuzz::{Folder, check_error, start};
 use drypoint_scene::volume::labels::{LabelError, LabelNames, LabelVolume};
 use drypoint_scene::volume::read::read;
@@ -13,7 +14,7 @@ fuzz_target!(init: start(), |data: &[u8]| {
 
 /// Reads a table, and finds each name by its label and each label by its name.
 fn names(file: &[u8]) {
-    match LabelNames::read(&Folder::new().put("a.csv", file)) {
+    match LabelNames::read(&Disk, &Folder::new().put("a.csv", file)) {
         Ok(names) => {
             for (id, name) in names.iter() {
                 assert_eq!((names.id(name), names.name(id)), (Some(id), Some(name)));

@@ -11,6 +11,7 @@ use drypoint_output::vector::{VectorPage, pdf::encode_pdf, svg::encode_svg};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, Polyline};
 use drypoint_scene::picture::Provenance;
+use drypoint_scene::source::Disk;
 use drypoint_scene::tables::BlendSpace;
 use drypoint_scene::tone::Tone;
 use libfuzzer_sys::fuzz_target;
@@ -88,7 +89,7 @@ fn read_back(marks: &Marks, file: &[u8], name: &str, same: impl Fn(&Layer, &Laye
 
 /// Checks that a tone is finite, and never less where more is asked for.
 fn check_tone(file: &[u8]) {
-    let tone = match Tone::read(&Folder::new().put("a.csv", file)) {
+    let tone = match Tone::read(&Disk, &Folder::new().put("a.csv", file)) {
         Ok(tone) => tone,
         Err(error) => return check_error([error.to_string(), error.place(), "write the table again".into()]),
     };

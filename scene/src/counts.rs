@@ -46,7 +46,7 @@ pub struct Counts {
     pub preprocess: BTreeMap<String, u64>,
     /// Size of each buffer.
     pub bytes: BTreeMap<String, u64>,
-    /// Wall-clock seconds of each pass.
+    /// Wall-clock seconds of passes. Renderers leave it empty.
     pub seconds: BTreeMap<String, f64>,
 }
 

@@ -33,6 +33,7 @@ pub mod plan;
 pub mod points;
 mod quantity;
 pub mod shot;
+pub mod source;
 pub mod space;
 pub mod strokes;
 pub mod style;

@@ -4,7 +4,7 @@
 //! that fails aborts the process. Everything that a file or a key can make large therefore asks [`room`] first. A
 //! refusal names the bytes needed and the bytes that would fit.
 
-use std::fs::File;
+use crate::source::Source;
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -140,10 +140,10 @@ impl<R: Read> Read for Metered<R> {
 /// Reads a whole file within the memory budget.
 ///
 /// # Errors
-/// Errors of the operating system, and [`ErrorKind::OutOfMemory`] for a file that does not fit.
-pub fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut file = File::open(path)?;
-    let length = file.metadata()?.len();
+/// Errors of the source, and [`ErrorKind::OutOfMemory`] for a file that does not fit.
+pub fn read(source: &dyn Source, path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = source.open(path)?;
+    let length = source.length(path)?.unwrap_or(0);
     room(length)?;
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
     (&mut file).take(length).read_to_end(&mut bytes)?;
@@ -156,8 +156,9 @@ pub fn read(path: &Path) -> io::Result<Vec<u8>> {
 ///
 /// # Errors
 /// The errors of [`read`], and [`ErrorKind::InvalidData`] for bytes that are not UTF-8.
-pub fn read_to_string(path: &Path) -> io::Result<String> {
-    String::from_utf8(read(path)?).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
+pub fn read_to_string(source: &dyn Source, path: &Path) -> io::Result<String> {
+    String::from_utf8(read(source, path)?)
+        .map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not text in UTF-8"))
 }
 
 /// Bytes that the system can give without swapping, within the limits of a container and of [`limit`].
@@ -194,6 +195,7 @@ fn free() -> Option<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Disk;
 
     #[test]
     fn a_little_can_be_had_and_all_there_is_cannot() {
@@ -220,11 +222,11 @@ mod tests {
         let path = folder.path().join("a");
         let bytes: Vec<u8> = (0..3 << 20).map(|i| (i % 251) as u8).collect();
         std::fs::write(&path, &bytes).unwrap();
-        assert_eq!(read(&path).unwrap(), bytes);
-        assert_eq!(read_to_string(&path).unwrap_err().kind(), ErrorKind::InvalidData);
+        assert_eq!(read(&Disk, &path).unwrap(), bytes);
+        assert_eq!(read_to_string(&Disk, &path).unwrap_err().kind(), ErrorKind::InvalidData);
         std::fs::write(&path, "κ").unwrap();
-        assert_eq!(read_to_string(&path).unwrap(), "κ");
-        assert_eq!(read(&folder.path().join("b")).unwrap_err().kind(), ErrorKind::NotFound);
+        assert_eq!(read_to_string(&Disk, &path).unwrap(), "κ");
+        assert_eq!(read(&Disk, &folder.path().join("b")).unwrap_err().kind(), ErrorKind::NotFound);
     }
 
     #[test]

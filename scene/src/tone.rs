@@ -7,6 +7,7 @@
 
 use crate::math::pow;
 use crate::memory;
+use crate::source::Source;
 use std::path::{Path, PathBuf};
 
 /// Coverage of evenly spread discs at λa = 0, ⅛, ¼, …: measured on samples of the page's own elimination.
@@ -110,8 +111,8 @@ impl Tone {
     ///
     /// # Errors
     /// [`ToneError`] with the line.
-    pub fn read(path: &Path) -> Result<Self, ToneError> {
-        let bytes = memory::read(path).map_err(|source| ToneError::Io { path: path.into(), source })?;
+    pub fn read(source: &dyn Source, path: &Path) -> Result<Self, ToneError> {
+        let bytes = memory::read(source, path).map_err(|source| ToneError::Io { path: path.into(), source })?;
         let fault = |line, fault: String| ToneError::Row { path: path.into(), line, fault };
         let mut table = csv::ReaderBuilder::new().flexible(true).from_reader(bytes.as_slice());
         let heads = table.headers().map_err(|error| fault(1, error.to_string()))?.clone();
@@ -210,6 +211,7 @@ fn along(rows: &[[f64; 2]], x: f64, column: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Disk;
 
     /// The coverage lies between those of dots without overlap and of random places, and more ink never covers less.
     #[test]
@@ -247,7 +249,7 @@ mod tests {
         let read = |text: &str| {
             let path = folder.path().join("wedge.csv");
             std::fs::write(&path, text).unwrap();
-            Tone::read(&path).map_err(|error| match error {
+            Tone::read(&Disk, &path).map_err(|error| match error {
                 ToneError::Row { line, fault, .. } => (line, fault),
                 ToneError::Io { .. } => panic!("{error}"),
             })
@@ -263,6 +265,6 @@ mod tests {
         ] {
             assert_eq!(read(text).unwrap_err(), (line, fault.into()), "{text}");
         }
-        assert!(matches!(Tone::read(&folder.path().join("none.csv")), Err(ToneError::Io { .. })));
+        assert!(matches!(Tone::read(&Disk, &folder.path().join("none.csv")), Err(ToneError::Io { .. })));
     }
 }

@@ -7,10 +7,12 @@ use crate::job::{Job, RenderTarget, bare, bare_for};
 use crate::scene::counts::Counts;
 use crate::scene::file::{self, Fault, Faults, Overrides, Place};
 use crate::scene::picture::LayerKind;
+use crate::scene::source::Disk;
 use crate::scene::tables::{RawLayout, Scene, VolumeSource};
 use crate::scene::volume::{Volume, read};
 use crate::{Failure, Failures};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The options `--set key=value` of a verb.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -159,8 +161,8 @@ impl VerbInput {
     /// Loads everything that the scene names.
     pub(super) fn load(self, target: RenderTarget) -> Result<Job, Failures> {
         let mut job = match self.volume {
-            Some(volume) => Job::with_volume_for(self.scene, volume, target),
-            None => Job::load_for(self.scene, target),
+            Some(volume) => Job::with_volume_for(self.scene, volume, target, Arc::new(Disk)),
+            None => Job::load_for(self.scene, target, Arc::new(Disk)),
         }?;
         job.counts.add(&self.counts);
         Ok(job)
@@ -199,7 +201,7 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
     if raw.is_none() && !read::is_volume(path) {
         return Err(no_input(path).into());
     }
-    let volume = read::read_part(path, raw, &|grid, _| described.volume.subset.of(grid.dims()))?;
+    let volume = read::read_part(&Disk, path, raw, &|grid, _| described.volume.subset.of(grid.dims()))?;
     let mut counts = Counts::default();
     let scene = finished(suggested(path, raw, &volume, over, &mut counts)?);
     let same = match &scene.volume.source {
@@ -241,7 +243,7 @@ pub(super) fn is_scene(path: &Path) -> bool {
 
 /// Returns the reason why a path is neither a scene nor a volume.
 pub(super) fn no_input(path: &Path) -> Failure {
-    if let Err(error) = read::refuse_dicom(path) {
+    if let Err(error) = read::refuse_dicom(&Disk, path) {
         return error.into();
     }
     let suffixes = read::EXTENSIONS.map(|suffix| format!(".{suffix}")).join(", ");

@@ -10,6 +10,7 @@ use crate::output::read::Image;
 use crate::output::sheet::{Layout, sheet};
 use crate::reference::style_transfer_functions::preview;
 use crate::scene::picture::Provenance;
+use crate::scene::source::Disk;
 use crate::scene::style::{StyleError, Theme};
 use crate::scene::tables::StyleSource;
 use crate::{Failure, Failures, Format};
@@ -65,7 +66,7 @@ impl StylesArgs {
             StyleSource::Embedded(self.theme.clone())
         };
         let refused = |error: StyleError| Failure::new(&error, format_args!("--theme {}", self.theme), error.help());
-        let theme = Theme::open(&source).map_err(refused)?;
+        let theme = Theme::open(&Disk, &source).map_err(refused)?;
         let names: Vec<&str> = theme.names().collect();
         if names.is_empty() {
             let place = format!("--theme {}", self.theme);
@@ -76,7 +77,7 @@ impl StylesArgs {
         };
         // The sheet: a sphere for each style.
         let (mut styles, mut failures) = (Vec::new(), Vec::new());
-        for style in names.iter().filter_map(|name| theme.style(name)) {
+        for style in names.iter().filter_map(|name| theme.style(&Disk, name)) {
             match style {
                 Ok(style) => styles.push(style),
                 Err(error) => failures.push(refused(error)),

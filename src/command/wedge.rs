@@ -8,6 +8,7 @@ use crate::format::Format;
 use crate::job::RenderTarget;
 use crate::scene::marks::{Page, Pen};
 use crate::scene::memory;
+use crate::scene::source::Disk;
 use crate::scene::tables::Scene;
 use crate::scene::tone::Tone;
 use crate::stippling::tone;
@@ -46,7 +47,7 @@ impl WedgeArgs {
         Format::among(&self.output, &Format::SHEETS)?;
         let (table, template) = (self.output.with_extension("csv"), template());
         // A table that is filled in stays, and may be read-only.
-        let stays = memory::read_to_string(&table).is_ok_and(|there| there != template);
+        let stays = memory::read_to_string(&Disk, &table).is_ok_and(|there| there != template);
         for path in std::iter::once(&self.output).chain((!stays).then_some(&table)) {
             output_path::writable(path)?;
         }
@@ -76,7 +77,7 @@ impl WedgeArgs {
         let format = Format::among(&self.output, &[Format::Svg, Format::Png])?;
         output_path::writable(&self.output)?;
         output_path::check_not_read(&self.output, [measured])?;
-        let (tone, name) = (tone(measured)?, output_path::stem(measured));
+        let (tone, name) = (tone(&Disk, measured)?, output_path::stem(measured));
         let bytes = if format == Format::Svg {
             tone_plot::svg(&tone, &name).into_bytes()
         } else {
@@ -100,6 +101,6 @@ fn pen(scene: &Scene, name: &str) -> Result<(Pen, Tone), Failures> {
         let remedy = format!("write one of {}", names.join(", "));
         return Err(Failure::new(format!("there is no pen {name:?}"), "--pen", remedy).into());
     };
-    let tone = scene.pens[i].tone.as_deref().map_or(Ok(Tone::ideal()), tone)?;
+    let tone = scene.pens[i].tone.as_deref().map_or(Ok(Tone::ideal()), |path| tone(&Disk, path))?;
     Ok((pens[i].clone(), tone))
 }

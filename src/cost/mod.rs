@@ -36,9 +36,11 @@
 
 mod error;
 mod front;
+#[cfg(feature = "plots")]
 mod plot;
 mod statistics;
 mod strokes;
+#[cfg(feature = "plots")]
 mod sweep_format;
 mod table;
 mod tone;
@@ -46,6 +48,7 @@ mod variant;
 
 pub use front::front;
 pub use statistics::median;
+#[cfg(feature = "plots")]
 pub use sweep_format::SweepFormat;
 pub use table::{csv, markdown};
 

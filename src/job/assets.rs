@@ -9,6 +9,7 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::inputs::ObjectData;
 use drypoint_scene::plan::{Pass, Plan, Quantity};
 use drypoint_scene::shot::Clipping;
+use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::tables::Scene;
@@ -33,6 +34,7 @@ impl Assets {
     /// Loads what the tables of an object name, over its volume. Of a part `main` is the grid of `[volume]`. A function
     /// without nodes is found in the data, and names of labels become ids. Faults go to `failures`.
     pub(super) fn load(
+        source: &dyn Source,
         tables: &mut Scene,
         plan: &mut Plan,
         volume: &Volume,
@@ -41,7 +43,7 @@ impl Assets {
         failures: &mut Vec<Failure>,
     ) -> Self {
         let labels = match plan.reads_labels() {
-            true => SceneLabels::load(&tables.volume, volume, failures),
+            true => SceneLabels::load(source, &tables.volume, volume, failures),
             false => SceneLabels::default(),
         };
         plan.warnings.extend(labels.warning(&tables.volume, volume));
@@ -66,7 +68,7 @@ impl Assets {
             });
         }
         // The styles. Those of caps come last.
-        let mut styles_of = |names: &mut dyn Iterator<Item = &str>| styles(tables, names, failures);
+        let mut styles_of = |names: &mut dyn Iterator<Item = &str>| styles(source, tables, names, failures);
         let mut styles = match &function {
             Some(Function::Style { names, .. }) => styles_of(&mut names.iter().map(String::as_str)),
             None if calls_for_function => styles_of(&mut tables.transfer.iter().flat_map(named)),
@@ -80,8 +82,8 @@ impl Assets {
             };
             styles.extend(styles_of(&mut of_caps.iter().map(String::as_str)));
         }
-        lighting_table(tables, plan, failures);
-        let further = if has_rays { further(tables, failures) } else { [None, None] };
+        lighting_table(source, tables, plan, failures);
+        let further = if has_rays { further(source, tables, failures) } else { [None, None] };
         if calls_for_function && function.is_none() && failures.is_empty() {
             let place = tables.given.position("transfer.nodes");
             failures.push(Failure::new("the transfer function has no node", place, "give it at least one"));

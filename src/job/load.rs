@@ -11,6 +11,7 @@ use drypoint_scene::memory;
 use drypoint_scene::mesh::{self, TriangleMesh};
 use drypoint_scene::phantom::{self, PhantomError};
 use drypoint_scene::plan::{Pass, Plan};
+use drypoint_scene::source::Source;
 use drypoint_scene::style::{Style, StyleError, lighting_table as decode_lighting_table, load as load_styles};
 use drypoint_scene::tables::{
     Axis, Background, Halo, LabelKey, Node, Scene, Transfer, TransferKind, VolumeSource, VolumeTable,
@@ -24,9 +25,9 @@ use std::fmt::Display;
 use std::sync::Arc;
 
 /// Reads or generates a scene's volume.
-pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
+pub(super) fn load_volume(source: &dyn Source, table: &VolumeTable, given: &Given) -> Result<Volume, Failure> {
     match &table.source {
-        VolumeSource::File { path, raw } => read::read_part(path, raw.as_ref(), &|grid, _| {
+        VolumeSource::File { path, raw } => read::read_part(source, path, raw.as_ref(), &|grid, _| {
             table.subset.of(grid.dims())
         })
         .map_err(|error| match *error.fault {
@@ -36,7 +37,7 @@ pub(super) fn load_volume(table: &VolumeTable, given: &Given) -> Result<Volume, 
             }
             _ => Failure::from(error),
         }),
-        VolumeSource::Phantom(source) => phantom::generate_part(source, &table.subset).map_err(|error| {
+        VolumeSource::Phantom(described) => phantom::generate_part(described, &table.subset).map_err(|error| {
             if let PhantomError::NotInVolume(_) = error {
                 return Failure::new(error, given.position("volume.box"), "give ranges within the phantom's size");
             }
@@ -59,7 +60,12 @@ impl Job {
         let table = &self.scene.volume;
         let unread = table.labels.clone().filter(|_| self.assets.labels.is_none());
         let mut failures = Vec::new();
-        let labels = SceneLabels::load(&VolumeTable { labels: unread, ..table.clone() }, &self.volume, &mut failures);
+        let labels = SceneLabels::load(
+            &*self.source,
+            &VolumeTable { labels: unread, ..table.clone() },
+            &self.volume,
+            &mut failures,
+        );
         Failures::check(failures)?;
         self.assets.labels = labels.volume.or(self.assets.labels.take());
         Ok(labels.names)
@@ -67,19 +73,22 @@ impl Job {
 }
 
 /// Reads the further volumes of the transfer function. Errors go to `failures`.
-pub(super) fn further(scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
+pub(super) fn further(source: &dyn Source, scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
     let axes = scene.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());
     [0, 1].map(|i| match axes.get(i) {
-        Some(Axis::Volume(path)) => read::read(path, None).map_err(|error| failures.push(Failure::from(error))).ok(),
+        Some(Axis::Volume(path)) => {
+            let read = read::read_part(source, path, None, &read::all_voxels);
+            read.map_err(|error| failures.push(Failure::from(error))).ok()
+        }
         _ => None,
     })
 }
 
 /// Reads the meshes of a scene and moves them to their places. Errors go to `failures`.
-pub(super) fn meshes(scene: &Scene, failures: &mut Vec<Failure>) -> Vec<TriangleMesh> {
+pub(super) fn meshes(source: &dyn Source, scene: &Scene, failures: &mut Vec<Failure>) -> Vec<TriangleMesh> {
     let mut meshes = Vec::with_capacity(scene.meshes.len());
     for (i, table) in scene.meshes.iter().enumerate() {
-        let read = mesh::read::read(&table.file).map_err(|error| {
+        let read = mesh::read::read(source, &table.file).map_err(|error| {
             let place = format!("{}, {}", table.file.display(), scene.given.position(&format!("mesh[{i}].file")));
             Failure::new(&error, place, error.remedy())
         });
@@ -143,13 +152,14 @@ pub(super) fn halo_labels(scene: &mut Scene, names: &LabelNames, is_part: bool, 
 
 /// Loads styles by name. Errors go to `failures`.
 pub(super) fn styles<'a>(
+    source: &dyn Source,
     scene: &Scene,
     names: impl Iterator<Item = &'a str>,
     failures: &mut Vec<Failure>,
 ) -> Vec<Style> {
     let mut styles = Vec::new();
     for name in names {
-        match load_styles(&scene.styles, [name]) {
+        match load_styles(source, &scene.styles, [name]) {
             Ok(style) => styles.extend(style),
             Err(error) => failures.push(style_failure(scene, &error)),
         }
@@ -173,7 +183,7 @@ fn style_failure(scene: &Scene, error: &StyleError) -> Failure {
 }
 
 /// Reads the lighting table of a file, if rays are lit by one. Errors go to `failures`.
-pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<Failure>) {
+pub(super) fn lighting_table(source: &dyn Source, scene: &mut Scene, plan: &Plan, failures: &mut Vec<Failure>) {
     let is_lit = scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular);
     let Some(shading) = scene.shading.as_mut().filter(|_| is_lit && plan.has_pass(Pass::Rays)) else { return };
     let reads = shading.lighting_file().is_some();
@@ -182,7 +192,7 @@ pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<
         let what = format!("the lighting table {}: {what}", file.path.display());
         Failure::new(what, scene.given.position("shading.table"), remedy)
     };
-    let read = memory::read(&file.path).map_err(|error| failed(&error, "give a picture that may be read"));
+    let read = memory::read(source, &file.path).map_err(|error| failed(&error, "give a picture that may be read"));
     match read.and_then(|bytes| decode_lighting_table(&bytes).map_err(|fault| failed(&fault, fault.help()))) {
         Ok(table) => file.table = Some(Arc::new(table)),
         Err(failure) => failures.push(failure),
@@ -190,7 +200,12 @@ pub(super) fn lighting_table(scene: &mut Scene, plan: &Plan, failures: &mut Vec<
 }
 
 /// Reads the picture behind the volume, if the scene has one. Errors go to `failures`.
-pub(super) fn background(scene: &Scene, target: RenderTarget, failures: &mut Vec<Failure>) -> Option<Vec<Rgba>> {
+pub(super) fn background(
+    source: &dyn Source,
+    scene: &Scene,
+    target: RenderTarget,
+    failures: &mut Vec<Failure>,
+) -> Option<Vec<Rgba>> {
     let Background::Picture(path) = &scene.picture.background else { return None };
     if target != RenderTarget::Picture {
         let (what, remedy) = ("a page has no picture behind it", "give a colour, or \"none\", or render the scene");
@@ -202,7 +217,7 @@ pub(super) fn background(scene: &Scene, target: RenderTarget, failures: &mut Vec
         failures.push(failure);
         return None;
     }
-    let pixels = read_background(path, width, height);
+    let pixels = read_background(source, path, width, height);
     let failed = |error| Failure::new(&error, scene.given.position("picture.background"), OutputError::help(&error));
     pixels.map_err(|error| failures.push(failed(error))).ok()
 }

@@ -13,6 +13,7 @@ use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::parallel;
 use drypoint_scene::plan::{NodesPlan, Plan};
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
+use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
 use drypoint_scene::transfer::Function;
@@ -57,11 +58,12 @@ impl Objects {
     /// # Errors
     /// Data that cannot be read, a part that draws nothing, and faults of its function and its material.
     pub(super) fn load(main: &Job, given: &Given) -> Result<Self, Failures> {
-        let (scene, volume) = (&main.scene, &main.volume);
+        let (scene, volume, source) = (&main.scene, &main.volume, &*main.source);
         let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
         let mut failures = Vec::new();
         for (i, object) in scene.objects.iter().enumerate() {
-            own.push(object.volume.as_ref().and_then(|path| match read::read(path, None) {
+            let read = object.volume.as_ref().map(|path| read::read_part(source, path, None, &read::all_voxels));
+            own.push(read.and_then(|read| match read {
                 Ok(volume) => Some(Arc::new(volume)),
                 Err(error) => {
                     let key = format!("object[{i}].volume");
@@ -77,7 +79,7 @@ impl Objects {
         for (i, object) in scene.objects.iter().enumerate() {
             let selection = match object.strokes {
                 Some(_) => Some(main.paint(i)?.selection),
-                None => selection(scene, (i, object), data(i), &mut failures),
+                None => selection(source, scene, (i, object), data(i), &mut failures),
             };
             facts.push(selection_facts(object, selection.as_ref(), data(i), volume.anatomy()));
             selections.push(selection);
@@ -87,7 +89,7 @@ impl Objects {
             let failed = |error: drypoint_output::OutputError| {
                 Failure::new(&error, scene.given.position(&format!("intersection[{i}].color")), error.help())
             };
-            read_intersection_picture(path).map_err(|error| failures.push(failed(error))).ok()
+            read_intersection_picture(source, path).map_err(|error| failures.push(failed(error))).ok()
         });
         let pictures = pictures.collect();
         Failures::check(std::mem::take(&mut failures))?;
@@ -108,7 +110,7 @@ impl Objects {
             let mut plan = plan_for(&tables, RenderTarget::Picture);
             plan.settle(&tables, is_integer(&volume));
             let (main_grid, counts) = (Some(main.volume.grid()), &mut Counts::default());
-            let assets = Assets::load(&mut tables, &mut plan, &volume, main_grid, counts, &mut failures);
+            let assets = Assets::load(source, &mut tables, &mut plan, &volume, main_grid, counts, &mut failures);
             Failures::check(std::mem::take(&mut failures))?;
             let grid = Anatomy::between(volume.grid(), volume.anatomy(), main.volume.anatomy());
             parts.push(ObjectPart { object, role, tables, volume, assets, grid });
@@ -208,6 +210,7 @@ impl ObjectPart {
 
 /// The selection volume of an object; none if it is one without.
 fn selection(
+    source: &dyn Source,
     scene: &Scene,
     (i, object): (usize, &ObjectTable),
     data: &Volume,
@@ -216,14 +219,15 @@ fn selection(
     let at = |key: &str| scene.given.position(&format!("object[{i}].{key}"));
     let no_room = |no_room, key| Failure::new(format!("the selection needs {no_room}"), at(key), "select less");
     if let Some(path) = &object.selection {
-        let volume = read::read(path, None).map_err(|error| Failure::of_file(&error, at("selection")));
+        let volume = read::read_part(source, path, None, &read::all_voxels);
+        let volume = volume.map_err(|error| Failure::of_file(&error, at("selection")));
         let selection =
             volume.and_then(|volume| Selection::from_volume(&volume).map_err(|error| no_room(error, "selection")));
         return selection.map_err(|failure| failures.push(failure)).ok();
     }
     let keys = object.label.as_ref()?;
     let table = scene.of_part(i, Role::Selection).volume;
-    let labels = SceneLabels::load(&table, data, failures);
+    let labels = SceneLabels::load(source, &table, data, failures);
     let volume = labels.volume?;
     let mut ids = Vec::new();
     for key in keys {

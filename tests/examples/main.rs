@@ -7,12 +7,23 @@
 mod compare_two_pictures;
 #[path = "../../examples/own_phantom.rs"]
 mod own_phantom;
+#[path = "../../examples/picture_to_stdout.rs"]
+mod picture_to_stdout;
 #[path = "../../examples/render_to_buffer.rs"]
 mod render_to_buffer;
 #[path = "../../examples/stipple_to_svg.rs"]
 mod stipple_to_svg;
 
 use drypoint::output::read::read_image;
+use std::process::Command;
+
+/// Runs the WebAssembly of the first argument.
+const RUN_WASM: &str = r#"
+const { WASI } = require("node:wasi");
+const wasi = new WASI({ version: "preview1" });
+const module = new WebAssembly.Module(require("node:fs").readFileSync(process.argv[1]));
+wasi.start(new WebAssembly.Instance(module, { wasi_snapshot_preview1: wasi.wasiImport }));
+"#;
 
 #[test]
 fn a_buffer_has_four_bytes_a_pixel() {
@@ -25,6 +36,18 @@ fn a_buffer_has_four_bytes_a_pixel() {
     let image = read_image(&file).unwrap();
     let alpha: Vec<u8> = image.channel("A").unwrap().iter().map(|a| (a * 255.0).round() as u8).collect();
     assert_eq!(alpha, bytes.chunks(4).map(|pixel| pixel[3]).collect::<Vec<_>>());
+}
+
+/// `DRYPOINT_WASM` names the program as built for wasm32-wasip1; `.ci/run` builds it.
+#[test]
+fn web_assembly_draws_the_same_bytes() {
+    let Some(program) = std::env::var_os("DRYPOINT_WASM") else {
+        println!("skipped: DRYPOINT_WASM names no WebAssembly of examples/picture_to_stdout.rs");
+        return;
+    };
+    let said = Command::new("node").args(["-e", RUN_WASM]).arg(program).output().unwrap();
+    assert!(said.status.success(), "{}", String::from_utf8_lossy(&said.stderr));
+    assert!(said.stdout == picture_to_stdout::run().unwrap(), "WebAssembly draws other bytes");
 }
 
 #[test]

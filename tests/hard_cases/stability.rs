@@ -172,7 +172,7 @@ A bound of 0 means that not one number may differ.
 
 `cargo run --release -p drypoint-docs -- stability` measures all of them and writes this page.
 Measured errors are rounded up to two digits; another machine may differ in them where a test itself calls its system's functions, never in a bound.
-Pictures do not differ between machines: a test holds the hashes of twelve files, PNG, EXR, SVG, PDF, lists and a volume, with styles, labels, contours, Phong, an iso-surface, stipples and strokes, in f64 and f32; it was run on x86-64 with AVX2, and on aarch64 under qemu, on Linux.
+Pictures do not differ between machines: a test holds the hashes of twelve files, PNG, EXR, SVG, PDF, lists and a volume, with styles, labels, contours, Phong, an iso-surface, stipples and strokes, in f64 and f32; it was run on x86-64 with AVX2, and on aarch64 under qemu, on Linux. A picture drawn in WebAssembly has the bytes of that on x86-64.
 ε is 2⁻⁵², u is 2⁻²⁴, half of the ε of f32, α₀ an opacity per reference length Δ₀, Δ the step, L the length of a ray inside the box; *in units of* a bound means that the bound is 1 there.
 
 Rows in f32 have `sampling.number = \"f32\"`, which rays alone know: points, strokes and outlines are computed in f64 whatever it says, so that their themes have no such row.

@@ -13,11 +13,13 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::philox::uniform;
+use drypoint::scene::source::Disk;
 use drypoint::scene::space::Grid;
 use drypoint::scene::strokes::Stroke;
 use drypoint::scene::tables::Measure;
 use drypoint::scene::volume::{Volume, Voxels};
 use std::path::Path;
+use std::sync::Arc;
 
 pub(crate) static THEME: Theme = Theme::new(
     "Strokes",
@@ -392,7 +394,7 @@ fn eye_inside() -> f64 {
              [hatching]\niso = 0\nseeds = \"dense\"\nspacing = \"random\"\n"
         );
         let scene = parse(&scene, Path::new("scene.toml"), &Overrides::default()).unwrap();
-        let job = Job::load_for(scene, RenderTarget::Strokes).unwrap();
+        let job = Job::load_for(scene, RenderTarget::Strokes, Arc::new(Disk)).unwrap();
         let mut counts = Counts::default();
         let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
         let marks = marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap();

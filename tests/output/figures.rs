@@ -6,7 +6,9 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, data_folders, load};
+use drypoint::scene::source::Disk;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Pixels of theirs on one of ours, along each side. Of dots of a pixel both lose ink or find some that is not there: with
 /// so many pixels little is left of that.
@@ -21,7 +23,7 @@ fn draw(figure: &str, paths: [&Path; 3]) {
     let mut overrides = Overrides::default();
     overrides.push_argument("picture.blend_space=srgb").unwrap();
     let scene = load(&folder.join(figure).with_extension("toml"), &overrides).unwrap();
-    let job = Job::load_for(scene, RenderTarget::Marks).unwrap();
+    let job = Job::load_for(scene, RenderTarget::Marks, Arc::new(Disk)).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
     let mut drawing = Drawing::new(&job, &marking, &mut counts).unwrap();

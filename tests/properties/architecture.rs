@@ -40,6 +40,21 @@ fn the_reference_opens_no_file() {
 }
 
 #[test]
+fn the_files_of_a_scene_are_opened_by_its_source() {
+    let mut found = lines_with("scene/src", &["fs::", "File::open", "OpenOptions"]);
+    found.retain(|line| !["source.rs", "atomic.rs"].iter().any(|file| line.contains(file)));
+    assert_eq!(found, [""; 0]);
+}
+
+/// A clock of `std::time` panics in wasm32-unknown-unknown.
+#[test]
+fn no_crate_below_src_reads_a_clock() {
+    for crate_below in ["scene/src", "reference/src", "gpu/src", "output/src"] {
+        assert_eq!(lines_with(crate_below, &["Instant", "SystemTime"]), [""; 0]);
+    }
+}
+
+#[test]
 fn output_knows_no_volume() {
     assert_eq!(lines_with("output/src", &["scene::volume", "scene::phantom", "scene::transfer"]), [""; 0]);
 }

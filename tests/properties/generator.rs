@@ -9,6 +9,7 @@ use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::lighting::{ContourRule, LightingPreset};
 use drypoint::scene::phantom::{self, Allowed};
 use drypoint::scene::picture::LayerKind;
+use drypoint::scene::source::Disk;
 use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
@@ -170,9 +171,9 @@ pub(super) fn styles() -> Vec<Style> {
 fn themed(r: &mut Random, table: &mut Styles) -> Vec<Style> {
     let themes: Vec<&str> = Theme::embedded_names().collect();
     table.theme = StyleSource::Embedded(r.pick(&themes).into());
-    let names: Vec<String> = Theme::open(&table.theme).unwrap().names().map(Into::into).collect();
+    let names: Vec<String> = Theme::open(&Disk, &table.theme).unwrap().names().map(Into::into).collect();
     let used = [r.pick(&names), r.pick(&names)];
-    styles_of::load(table, used.iter().map(String::as_str)).unwrap()
+    styles_of::load(&Disk, table, used.iter().map(String::as_str)).unwrap()
 }
 
 /// A background of any size: a picture is stretched to its frame.

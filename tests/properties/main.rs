@@ -19,6 +19,7 @@ mod planes;
 mod refinement;
 mod scenes;
 mod skipping;
+mod sources;
 mod stop;
 mod subset;
 mod weight;

@@ -10,9 +10,11 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Quantity;
+use drypoint::scene::source::Disk;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Every scene file in a folder and the folders in it.
 fn scenes(folder: &Path) -> Vec<PathBuf> {
@@ -42,8 +44,8 @@ fn drawn(path: &Path) -> ([usize; 2], f64) {
         small.push(("picture.size", "[96, 96]"));
     }
     let scene = load(path, &small.into_iter().collect()).unwrap();
-    let job =
-        Job::load_for(scene, RenderTarget::Marks).unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
+    let job = Job::load_for(scene, RenderTarget::Marks, Arc::new(Disk))
+        .unwrap_or_else(|failure| panic!("{}: {failure}", path.display()));
     // Keys of what is not drawn here have their effect in the whole picture.
     let idle: Vec<_> = job.plan.idle_keys.iter().filter(|idle| idle.why != "the volume itself is not drawn").collect();
     assert!(idle.is_empty(), "{}: keys without effect: {idle:?}", path.display());

@@ -1,18 +1,24 @@
 //! Pictures behind the volume ([IO-6]).
 
-use super::{ColorChannels, Image, read_image};
+use super::{ColorChannels, Image, bytes, decode};
 use crate::OutputError;
 use drypoint_scene::color::Rgba;
+use drypoint_scene::source::Source;
 use std::path::Path;
 
 /// Returns the picture in a file, stretched to `width` × `height` pixels: linear premultiplied, row by row from the
 /// top.
 ///
 /// # Errors
-/// Same errors as [`read_image`]; [`OutputError::NoColor`]; [`OutputError::Malformed`] for a colour that is not finite,
-/// which would spread through the picture as NaN.
-pub fn read_background(path: &Path, width: usize, height: usize) -> Result<Vec<Rgba>, OutputError> {
-    let image = read_image(path)?;
+/// Same errors as [`read_image`](super::read_image); [`OutputError::NoColor`]; [`OutputError::Malformed`] for a colour
+/// that is not finite, which would spread through the picture as NaN.
+pub fn read_background(
+    source: &dyn Source,
+    path: &Path,
+    width: usize,
+    height: usize,
+) -> Result<Vec<Rgba>, OutputError> {
+    let image = decode(&bytes(source, path)?, path)?;
     for name in ["R", "G", "B", "A"] {
         if image.channel(name).is_some_and(|channel| channel.iter().any(|v| !v.is_finite())) {
             return Err(OutputError::Malformed {
@@ -67,6 +73,7 @@ mod tests {
     use super::*;
     use crate::exr::write_exr;
     use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
+    use drypoint_scene::source::Disk;
 
     fn image(width: usize, height: usize, value: impl Fn(usize, usize) -> f64, alpha: Option<f64>) -> Image {
         let plane: Vec<f64> =
@@ -127,6 +134,6 @@ mod tests {
         let layer = Layer { kind, channels: vec![vec![value]; kind.channels().len()] };
         let picture = Picture { width: 1, height: 1, layers: vec![layer] };
         write_exr(&picture, &Provenance::default(), &path).unwrap();
-        read_background(&path, 2, 2)
+        read_background(&Disk, &path, 2, 2)
     }
 }

@@ -1,10 +1,10 @@
 //! Pictures of intersection transfer functions ([VS-4]).
 
-use super::{ImageLimits, decode_within, has_alpha};
+use super::{ImageLimits, bytes, decode_within, has_alpha};
 use crate::OutputError;
 use drypoint_scene::color::unpremultiply;
 use drypoint_scene::intersection_picture::{IntersectionPicture, MOST_SIDE};
-use drypoint_scene::memory;
+use drypoint_scene::source::Source;
 use std::path::Path;
 
 /// Reads a picture as straight linear colours.
@@ -12,8 +12,8 @@ use std::path::Path;
 /// # Errors
 /// Same errors as [`read_image`](super::read_image); [`OutputError::Side`] for a side above [`MOST_SIDE`];
 /// [`OutputError::NoColor`]; [`OutputError::Malformed`] for a value that is not finite.
-pub fn read_intersection_picture(path: &Path) -> Result<IntersectionPicture, OutputError> {
-    let bytes = memory::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
+pub fn read_intersection_picture(source: &dyn Source, path: &Path) -> Result<IntersectionPicture, OutputError> {
+    let bytes = bytes(source, path)?;
     let image = decode_within(&bytes, path, &ImageLimits { side: MOST_SIDE, each: size_of::<[f64; 4]>() })?;
     let no_color = || OutputError::NoColor { name: path.display().to_string(), found: image.names() };
     let colors = image.colors().filter(|_| image.width > 0 && image.height > 0).ok_or_else(no_color)?;
@@ -32,6 +32,7 @@ pub fn read_intersection_picture(path: &Path) -> Result<IntersectionPicture, Out
 #[cfg(test)]
 mod tests {
     use super::*;
+    use drypoint_scene::source::Disk;
     use png::{BitDepth, ColorType, Encoder};
 
     /// Only a file that says an opacity replaces that of the preset.
@@ -53,7 +54,7 @@ mod tests {
                 encoder.set_trns(color);
             }
             encoder.write_header().unwrap().write_image_data(bytes).unwrap();
-            let picture = read_intersection_picture(&path).unwrap();
+            let picture = read_intersection_picture(&Disk, &path).unwrap();
             assert_eq!(picture.has_opacity, expected, "{color:?}");
         }
     }
@@ -67,7 +68,7 @@ mod tests {
             let mut encoder = Encoder::new(std::fs::File::create(&path).unwrap(), width as u32, 1);
             encoder.set_color(ColorType::Grayscale);
             encoder.write_header().unwrap().write_image_data(&vec![7; width]).unwrap();
-            match read_intersection_picture(&path) {
+            match read_intersection_picture(&Disk, &path) {
                 Ok(picture) => assert!(is_read && picture.size == [width, 1]),
                 Err(error) => {
                     let expected =

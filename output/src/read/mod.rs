@@ -9,6 +9,7 @@ use crate::OutputError;
 use crate::layers::room;
 use drypoint_scene::memory;
 use drypoint_scene::picture::Picture;
+use drypoint_scene::source::{Disk, Source};
 use std::path::Path;
 
 pub use background::{read_background, stretch};
@@ -82,8 +83,12 @@ impl From<&Picture> for Image {
 /// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and before anything is allocated
 /// [`OutputError::TooLarge`] for a header that lies and [`OutputError::NoRoom`] for pixels that do not fit.
 pub fn read_image(path: &Path) -> Result<Image, OutputError> {
-    let bytes = memory::read(path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })?;
-    decode(&bytes, path)
+    decode(&bytes(&Disk, path)?, path)
+}
+
+/// Returns the bytes of a file of a source.
+fn bytes(source: &dyn Source, path: &Path) -> Result<Vec<u8>, OutputError> {
+    memory::read(source, path).map_err(|source| OutputError::Io { path: path.into(), action: "read", source })
 }
 
 /// Decodes bytes as [`read_image`] does. The path is only for messages.

@@ -25,7 +25,6 @@ use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
 const TILE: usize = 8;
@@ -71,13 +70,12 @@ impl<'a> Renderer<'a> {
     /// # Errors
     /// A reconstruction that does not exist, sample planes that fall together, data that the shot names and that is not there.
     pub fn new(shot: &Shot, inputs: Inputs<'a>) -> Result<Self, RenderError> {
-        let start = Instant::now();
         let mut counts = Counts::default();
         let ready = match shot.number {
             Number::F64 => Ready::F64(Box::new(prepare(shot, &inputs, &mut counts)?)),
             Number::F32 => Ready::F32(Box::new(prepare(shot, &inputs, &mut counts)?)),
         };
-        Ok(Self::of(ready, shot, &inputs, counts, start))
+        Ok(Self::of(ready, shot, &inputs, counts))
     }
 
     /// Prepares the picture that reconstructions converge to: of a phantom's own formula and its derivatives in place of
@@ -87,7 +85,6 @@ impl<'a> Renderer<'a> {
     /// # Errors
     /// See [`Renderer::new`]; objects, which are drawn from voxels.
     pub fn exact(shot: &Shot, inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
-        let start = Instant::now();
         let mut counts = Counts::default();
         if shot.combination.is_some() {
             return Err(RenderError::ExactObjects);
@@ -107,16 +104,15 @@ impl<'a> Renderer<'a> {
         if let Some(range) = object.gradient_range {
             prepared.object.gradient_range = Some(gradient_range(&prepared.object.field, range, &mut counts));
         }
-        Ok(Self::of(Ready::F64(Box::new(prepared)), shot, &inputs, counts, start))
+        Ok(Self::of(Ready::F64(Box::new(prepared)), shot, &inputs, counts))
     }
 
-    fn of(ready: Ready<'a>, shot: &Shot, inputs: &Inputs<'a>, mut counts: Counts, start: Instant) -> Self {
+    fn of(ready: Ready<'a>, shot: &Shot, inputs: &Inputs<'a>, mut counts: Counts) -> Self {
         let (object, volume) = (shot.background(), inputs.main.volume);
         counts.bytes.insert("volume".into(), volume.voxels().bytes() as u64);
         if let Some(mask) = volume.mask() {
             counts.bytes.insert("mask".into(), mask.bytes() as u64);
         }
-        counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
         let order = match &ready {
             Ready::F64(p) if p.halos.is_none() && lanes::serve(p) => Order::Lanes,
             _ => Order::Rays,
@@ -245,13 +241,11 @@ impl<'a> Renderer<'a> {
 
     /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
-        let start = Instant::now();
         let progress = Progress { hear: progress, stop: &self.stop, between: [0.0, 1.0] };
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::F32(p) => self.draw(p, &p.object.field, progress),
         };
-        counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
         let channels: usize = picture.layers.iter().map(|l| l.channels.len()).sum();
         counts.bytes.insert("picture".into(), (channels * picture.width * picture.height * 8) as u64);
         (picture, counts)

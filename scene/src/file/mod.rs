@@ -29,6 +29,7 @@ use crate::document::check::Check;
 use crate::document::item::Item;
 use crate::document::{full, reference, schema};
 use crate::memory;
+use crate::source::Disk;
 use crate::tables::root::ROOT;
 use crate::tables::{Scene, Transfer, TransferKind};
 use std::path::Path;
@@ -96,7 +97,7 @@ pub fn load_for(path: &Path, volume: &Path, overrides: &Overrides) -> Result<Sce
 
 fn load_over(path: &Path, volume: Option<&Path>, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(path);
-    let scene = match memory::read_to_string(path) {
+    let scene = match memory::read_to_string(&Disk, path) {
         Ok(text) => {
             let mut scene = read(&text, volume, overrides, &mut check);
             if let Some(scene) = &mut scene {

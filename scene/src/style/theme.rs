@@ -3,6 +3,7 @@
 use super::{Style, StyleError};
 use crate::memory;
 use crate::nearest::nearest;
+use crate::source::Source;
 use crate::tables::StyleSource;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -32,12 +33,12 @@ const EMBEDDED: &[(&str, Pictures)] = &[theme!("textbook"), theme!("naturalist")
 #[derive(Clone, Debug, PartialEq)]
 pub struct Theme {
     source: StyleSource,
-    pictures: BTreeMap<String, Source>,
+    pictures: BTreeMap<String, ThemePicture>,
 }
 
 /// The location of one picture of a theme.
 #[derive(Clone, Debug, PartialEq)]
-enum Source {
+enum ThemePicture {
     Embedded(&'static [u8]),
     File(PathBuf),
 }
@@ -52,10 +53,10 @@ impl Theme {
     ///
     /// # Errors
     /// A name that no embedded theme has; a folder that cannot be listed or has two pictures of one name.
-    pub fn open(source: &StyleSource) -> Result<Self, StyleError> {
+    pub fn open(files: &dyn Source, source: &StyleSource) -> Result<Self, StyleError> {
         let pictures = match source {
             StyleSource::Embedded(name) => embedded(name)?,
-            StyleSource::Folder(folder) => pictures_of(folder)?,
+            StyleSource::Folder(folder) => pictures_of(files, folder)?,
         };
         Ok(Self { source: source.clone(), pictures })
     }
@@ -69,9 +70,9 @@ impl Theme {
     ///
     /// # Errors
     /// A file that cannot be read, or a picture that is no style.
-    pub fn style(&self, name: &str) -> Option<Result<Style, StyleError>> {
+    pub fn style(&self, files: &dyn Source, name: &str) -> Option<Result<Style, StyleError>> {
         Some(match self.pictures.get(name)? {
-            Source::Embedded(bytes) => {
+            ThemePicture::Embedded(bytes) => {
                 let file = PathBuf::from(format!("{self}/{name}.png"));
                 Style::decode(name, bytes, false).map_err(|fault| StyleError::Picture {
                     name: name.into(),
@@ -79,7 +80,7 @@ impl Theme {
                     fault,
                 })
             }
-            Source::File(path) => read(name, path, false),
+            ThemePicture::File(path) => read(files, name, path, false),
         })
     }
 }
@@ -94,8 +95,8 @@ impl fmt::Display for Theme {
 }
 
 /// The style in a file.
-pub(super) fn read(name: &str, path: &Path, linear: bool) -> Result<Style, StyleError> {
-    let bytes = memory::read(path).map_err(|e| StyleError::File {
+pub(super) fn read(files: &dyn Source, name: &str, path: &Path, linear: bool) -> Result<Style, StyleError> {
+    let bytes = memory::read(files, path).map_err(|e| StyleError::File {
         name: name.into(),
         file: path.into(),
         reason: e.to_string(),
@@ -107,21 +108,20 @@ pub(super) fn read(name: &str, path: &Path, linear: bool) -> Result<Style, Style
     })
 }
 
-fn embedded(name: &str) -> Result<BTreeMap<String, Source>, StyleError> {
+fn embedded(name: &str) -> Result<BTreeMap<String, ThemePicture>, StyleError> {
     let (_, pictures) = EMBEDDED.iter().find(|(theme, _)| *theme == name).ok_or_else(|| StyleError::UnknownTheme {
         name: name.into(),
         near: nearest(name, Theme::embedded_names()).map(Into::into),
         known: Theme::embedded_names().map(Into::into).collect(),
     })?;
-    Ok(pictures.iter().map(|(style, bytes)| ((*style).into(), Source::Embedded(bytes))).collect())
+    Ok(pictures.iter().map(|(style, bytes)| ((*style).into(), ThemePicture::Embedded(bytes))).collect())
 }
 
 /// The pictures of a folder by their names without suffix. Hidden files and files of other kinds are passed over.
-fn pictures_of(folder: &Path) -> Result<BTreeMap<String, Source>, StyleError> {
+fn pictures_of(files: &dyn Source, folder: &Path) -> Result<BTreeMap<String, ThemePicture>, StyleError> {
     let fault = |e: std::io::Error| StyleError::Folder { folder: folder.into(), reason: e.to_string() };
     let mut pictures = BTreeMap::new();
-    for entry in std::fs::read_dir(folder).map_err(fault)? {
-        let path = entry.map_err(fault)?.path();
+    for path in files.list(folder).map_err(fault)? {
         let Some((name, suffix)) =
             path.file_name().and_then(|file| file.to_str()).and_then(|file| file.rsplit_once('.'))
         else {
@@ -132,7 +132,7 @@ fn pictures_of(folder: &Path) -> Result<BTreeMap<String, Source>, StyleError> {
             continue;
         }
         let name = name.to_owned();
-        if let Some(Source::File(other)) = pictures.insert(name.clone(), Source::File(path.clone())) {
+        if let Some(ThemePicture::File(other)) = pictures.insert(name.clone(), ThemePicture::File(path.clone())) {
             let mut files =
                 [other, path].map(|p| p.file_name().unwrap_or_default().to_string_lossy().into_owned()).to_vec();
             files.sort();

@@ -6,6 +6,7 @@ use crate::output::{OutputError, png};
 use crate::reference::style_transfer_functions::extract::{Region, extract};
 use crate::scene::memory;
 use crate::scene::picture::Provenance;
+use crate::scene::source::Disk;
 use crate::scene::style::{MAX_SIDE, SourcePicture};
 use crate::{Failure, Format};
 use clap::builder::RangedU64ValueParser;
@@ -72,7 +73,7 @@ impl ExtractArgs {
 
     fn source(&self) -> Result<SourcePicture, Failure> {
         let place = || self.picture.display();
-        let bytes = memory::read(&self.picture).map_err(|source| {
+        let bytes = memory::read(&Disk, &self.picture).map_err(|source| {
             Failure::picture(&OutputError::Io { path: self.picture.clone(), action: "read", source }, place())
         })?;
         SourcePicture::decode(&bytes, self.linear).map_err(|fault| Failure::new(&fault, place(), fault.help()))
@@ -120,7 +121,7 @@ fn inline(text: &str) -> Option<Vec<[f64; 2]>> {
 /// Reads a point a line. Empty lines, lines that begin with # and a first line with names are skipped.
 fn file(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
     let remedy = "write x,y on each line, in pixels, or all points as \"x,y x,y …\"";
-    let text = memory::read_to_string(path)
+    let text = memory::read_to_string(&Disk, path)
         .map_err(|error| Failure::new(format!("the outline cannot be read: {error}"), path.display(), remedy))?;
     let mut points = Vec::new();
     for (k, line) in text.lines().enumerate().map(|(k, line)| (k, line.trim())) {

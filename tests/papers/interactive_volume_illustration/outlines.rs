@@ -11,7 +11,9 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::parse;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Marks, Page, Polyline};
+use drypoint::scene::source::Disk;
 use std::path::Path;
+use std::sync::Arc;
 
 const BALL: &str = r#"
 drypoint = 1
@@ -92,7 +94,7 @@ fn over_a_surface_and_without() {
     let (_, counts, job) = page(&scene, RenderTarget::Picture);
     assert_eq!(counts.strokes, 1);
     let bare = parse(&scene, Path::new("s"), &[("outlines", "off")].into_iter().collect()).unwrap();
-    let bare = Job::load_for(bare, RenderTarget::Picture).unwrap();
+    let bare = Job::load_for(bare, RenderTarget::Picture, Arc::new(Disk)).unwrap();
     let drawn = |job: &Job| {
         let mut counts = Counts::default();
         let marking = Marking::new(job, &mut counts, &|_| ()).unwrap();

@@ -12,6 +12,7 @@ use drypoint::scene::color::linear_to_srgb;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::phantom;
 use drypoint::scene::picture::{Picture, Provenance};
+use drypoint::scene::source::Disk;
 use drypoint::scene::style::{SourcePicture, Style, load};
 use drypoint::scene::tables::{Background, PhantomSource, Styles};
 use drypoint::scene::volume::{Volume, VoxelType};
@@ -68,7 +69,7 @@ struct Trip {
 
 impl Trip {
     fn new(shot: &Stage, theme: &str, region: &Region, side: usize) -> Self {
-        let first = in_style(shot, load(&Styles::default(), [theme]).unwrap().remove(0));
+        let first = in_style(shot, load(&Disk, &Styles::default(), [theme]).unwrap().remove(0));
         let source = SourcePicture::decode(&png(&first), false).unwrap();
         let extracted = extract(&source, region, side).unwrap();
         let second = in_style(shot, style(&extracted));

@@ -10,11 +10,13 @@ use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Layer, Marks};
 use drypoint::scene::picture::LayerKind;
+use drypoint::scene::source::Disk;
 use drypoint::scene::tables::BlendSpace;
 use drypoint::scene::tone::{FULL, Tone};
 use drypoint::scene::volume::Volume;
 use std::f64::consts::TAU;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Millimetres of the page to a voxel.
 const SCALE: f64 = 80.0 / 48.0;
@@ -34,7 +36,7 @@ fn page(volume: Volume, direction: &str) -> Marks {
     // The surface is f = 0 exactly, not nearly as one that is found.
     let iso = ["stipples.iso", "stipples.hide_behind", "outlines.iso"].map(|key| (key, "0"));
     let scene = parse(&text, Path::new("test.toml"), &Overrides::from_iter(iso)).unwrap();
-    let job = Job::with_volume_for(scene, volume, RenderTarget::Points).unwrap();
+    let job = Job::with_volume_for(scene, volume, RenderTarget::Points, Arc::new(Disk)).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
     marking.frames(&mut counts).unwrap().draw(&job.view().unwrap(), &mut counts).unwrap()

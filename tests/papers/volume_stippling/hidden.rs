@@ -5,8 +5,10 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Dot;
+use drypoint::scene::source::Disk;
 use drypoint::stippling::Stippling;
 use std::path::Path;
+use std::sync::Arc;
 
 const SCENE: &str = r#"drypoint = 1
 [volume]
@@ -26,7 +28,7 @@ snap = "edge"
 /// counted, and the middle of the sphere.
 fn page(line: &str) -> (Vec<Dot>, Counts, DVec3) {
     let scene = parse(&format!("{SCENE}{line}\n"), Path::new("sphere.toml"), &Overrides::default()).unwrap();
-    let job = Job::load_for(scene, RenderTarget::Marks).unwrap();
+    let job = Job::load_for(scene, RenderTarget::Marks, Arc::new(Disk)).unwrap();
     let mut counts = job.counts.clone();
     let stippling = Stippling::new(&job, &mut counts, &|_| ()).unwrap();
     let marks = stippling.frames().draw(&job.view().unwrap(), &mut counts);

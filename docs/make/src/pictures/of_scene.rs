@@ -9,8 +9,10 @@ use drypoint::output::sheet::{Layout, sheet};
 use drypoint::scene::color::srgb_to_linear;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::picture::{Layer, LayerKind, Picture};
+use drypoint::scene::source::Disk;
 use drypoint::scene::tables::{Background, Scene};
 use drypoint::{Failure, Failures};
+use std::sync::Arc;
 
 /// Makes a file of a picture.
 pub(super) type Encode = fn(&Picture) -> Result<Vec<u8>, png::EncodingError>;
@@ -56,7 +58,7 @@ pub(super) fn picture(mut scene: Scene) -> Result<(Picture, Encode), String> {
 
 /// Dots and lines, on their page, or where they have colours over the volume. The frames of an orbit stand side by side.
 fn marks(scene: Scene, colored: bool) -> Result<Picture, Failures> {
-    let job = Job::load_for(scene, if colored { RenderTarget::Picture } else { RenderTarget::Marks })?;
+    let job = Job::load_for(scene, if colored { RenderTarget::Picture } else { RenderTarget::Marks }, Arc::new(Disk))?;
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ())?;
     let mut drawing = Drawing::new(&job, &marking, &mut counts)?;

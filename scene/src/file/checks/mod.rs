@@ -6,6 +6,7 @@ mod page;
 
 use crate::document::Problem;
 use crate::document::check::Check;
+use crate::source::Disk;
 use crate::style::Theme;
 use crate::tables::{Axis, DotColor, LabelKey, Over, PenSettings, Scene, Stand, Styles};
 use std::borrow::Cow;
@@ -56,7 +57,7 @@ fn styles_at<'a>(scene: &'a Scene, part: Option<(usize, bool)>, check: &Check) -
 
 /// The names of all styles; none if the theme cannot be listed.
 fn known_styles(styles: &Styles) -> Option<BTreeSet<String>> {
-    let theme = Theme::open(&styles.theme).ok()?;
+    let theme = Theme::open(&Disk, &styles.theme).ok()?;
     let mut known: BTreeSet<String> = theme.names().map(Into::into).collect();
     known.extend(styles.files.iter().map(|(name, _)| name.clone()));
     Some(known)

@@ -6,6 +6,7 @@ mod stl;
 
 use super::{MeshFault, TriangleMesh};
 use crate::memory;
+use crate::source::Source;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -71,7 +72,7 @@ impl From<MeshFault> for MeshReason {
 ///
 /// # Errors
 /// A file that cannot be read, is cut short, has text or numbers that its format does not have, or no triangle.
-pub fn read(path: &Path) -> Result<TriangleMesh, MeshError> {
+pub fn read(source: &dyn Source, path: &Path) -> Result<TriangleMesh, MeshError> {
     /// Bytes in memory for each byte of a file, at most: the parsed text of a face of few digits.
     const EACH: u64 = 32;
     let read = || {
@@ -83,7 +84,7 @@ pub fn read(path: &Path) -> Result<TriangleMesh, MeshError> {
             _ => return Err(MeshReason::Suffix),
         };
         let unreadable = |error: std::io::Error| MeshReason::Unreadable(error.to_string());
-        let bytes = memory::read(path).map_err(unreadable)?;
+        let bytes = memory::read(source, path).map_err(unreadable)?;
         memory::room_for(bytes.len() as u64, EACH).map_err(|no_room| unreadable(no_room.into()))?;
         parse(bytes).map(TriangleMesh::without_repeated)
     };

@@ -1,4 +1,5 @@
 use super::*;
+use crate::source::Disk;
 use glam::DVec3;
 
 const HEADER: &str = "ply\nformat FORMAT 1.0\ncomment by hand\nelement vertex 4\nproperty float x\nproperty double y\n\
@@ -35,7 +36,7 @@ fn read_bytes(name: &str, bytes: &[u8]) -> Result<TriangleMesh, String> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     std::fs::write(&path, bytes).unwrap();
-    read(&path).map_err(|error| {
+    read(&Disk, &path).map_err(|error| {
         assert!(error.path == path && !error.remedy().is_empty());
         error.to_string()
     })
@@ -150,7 +151,7 @@ fn broken_files_are_told() {
         let text = read_bytes(name, &bytes).unwrap_err();
         assert!(text.starts_with(expected) && !text.contains('\n'), "{name}: {expected}\n{text}");
     }
-    assert!(read(Path::new("none.ply")).unwrap_err().to_string().starts_with("the mesh cannot be read: "));
+    assert!(read(&Disk, Path::new("none.ply")).unwrap_err().to_string().starts_with("the mesh cannot be read: "));
 }
 
 /// A file that is cut anywhere is an error, and never a panic or a part of a mesh.

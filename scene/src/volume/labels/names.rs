@@ -2,6 +2,7 @@
 
 use crate::memory;
 use crate::nearest::nearest;
+use crate::source::Source;
 use crate::volume::read::quoted;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -68,9 +69,9 @@ impl LabelNames {
     ///
     /// # Errors
     /// A file that cannot be read, and the first line that has no id, no name, or one that was given already.
-    pub fn read(path: &Path) -> Result<Self, NamesError> {
+    pub fn read(source: &dyn Source, path: &Path) -> Result<Self, NamesError> {
         let error = |fault| NamesError { file: path.to_owned(), line: None, fault };
-        let text = memory::read(path).map_err(|e| error(NamesFault::Io(e)))?;
+        let text = memory::read(source, path).map_err(|e| error(NamesFault::Io(e)))?;
         Self::parse(&text).map_err(|(line, fault)| NamesError { line, ..error(fault) })
     }
 
@@ -179,6 +180,7 @@ impl std::error::Error for NamesError {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Disk;
 
     fn parse(text: &str) -> Vec<(u32, String)> {
         let names = LabelNames::parse(text.as_bytes()).unwrap();
@@ -238,7 +240,7 @@ mod tests {
         let error = NamesError { file: "parts.csv".into(), line: Some(2), fault };
         let text = "label 2 has no name\nparts.csv, line 2\nwrite an id and a name on each line, as in `5,liver`";
         assert_eq!(error.to_string(), text);
-        let gone = LabelNames::read(Path::new("no/such/parts.csv")).unwrap_err();
+        let gone = LabelNames::read(&Disk, Path::new("no/such/parts.csv")).unwrap_err();
         assert_eq!(gone.place(), "no/such/parts.csv");
     }
 }

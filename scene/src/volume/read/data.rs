@@ -5,12 +5,12 @@ use super::error::{Fault, ReadError, quoted};
 use super::header::open;
 use super::limits::{Encoding, make_room};
 use crate::memory::NoRoom;
+use crate::source::{Content, Source};
 use crate::space::Grid;
 use crate::volume::bytes::Stored;
 use crate::volume::{Anatomy, KeptVoxels, Volume, VolumeError, VoxelType, Voxels};
 use bzip2::bufread::MultiBzDecoder;
 use flate2::bufread::{MultiGzDecoder, ZlibDecoder};
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
@@ -24,8 +24,9 @@ const COUNTED: u128 = 1 << 24;
 const LONGEST: usize = 1200;
 
 /// The voxels' layout and position, from a header.
-#[derive(Debug)]
 pub(super) struct Payload<'a> {
+    /// The source of the files.
+    pub(super) source: &'a dyn Source,
     /// The header.
     pub(super) header: &'a Path,
     /// The field of the header that has the sizes.
@@ -93,7 +94,7 @@ impl Payload<'_> {
 
     /// Finds where the stored data of a file begin, and checks that what the header claims can be in them.
     fn check<'p>(&self, path: &'p Path, share: usize) -> Result<Part<'p>, ReadError> {
-        let (file, len) = open(path)?;
+        let (file, len) = open(self.source, path)?;
         let voxel = self.voxel_type.bytes();
         let expected = share as u128 * voxel as u128;
         let mut offset = self.start;
@@ -130,7 +131,7 @@ impl Payload<'_> {
     }
 
     /// Bytes of the lines to skip from `offset` on.
-    fn skip_lines(&self, path: &Path, mut file: File, offset: u64) -> Result<u64, ReadError> {
+    fn skip_lines(&self, path: &Path, mut file: Box<dyn Content + '_>, offset: u64) -> Result<u64, ReadError> {
         let failed = |e| ReadError::io(path, e);
         file.seek(SeekFrom::Start(offset)).map_err(failed)?;
         let mut reader = BufReader::new(file);
@@ -155,7 +156,7 @@ impl Payload<'_> {
         }
         for part in &parts {
             let failed = |e| ReadError::io(part.path, e);
-            let (mut file, _) = open(part.path)?;
+            let (mut file, _) = open(self.source, part.path)?;
             file.seek(SeekFrom::Start(part.offset)).map_err(failed)?;
             let mut reader = BufReader::with_capacity(CHUNK, file);
             match self.encoding {
@@ -190,7 +191,7 @@ impl Payload<'_> {
         share: usize,
         sink: &mut Sink<T>,
     ) -> Result<(), ReadError> {
-        let mut source = Source { path: part.path, reader, cut: false };
+        let mut stream = DecodedStream { path: part.path, reader, cut: false };
         let expected = share as u128 * size_of::<T>() as u128;
         let short = |found| self.misfit(part.path, Fault::Short { expected, found, unit: "bytes" });
         // Bytes to skip in the decoded data.
@@ -198,7 +199,7 @@ impl Payload<'_> {
         let mut skip = self.inside;
         while skip > 0 {
             let piece = &mut buffer[..skip.min(CHUNK as u64) as usize];
-            if source.fill(piece)? < piece.len() {
+            if stream.fill(piece)? < piece.len() {
                 return Err(short(0));
             }
             skip -= piece.len() as u64;
@@ -207,7 +208,7 @@ impl Payload<'_> {
         let mut found = 0;
         while found < expected {
             let piece = &mut buffer[..(expected - found).min(CHUNK as u128) as usize];
-            let n = source.fill(piece)?;
+            let n = stream.fill(piece)?;
             found += n as u128;
             if n < piece.len() {
                 return Err(short(found));
@@ -216,7 +217,7 @@ impl Payload<'_> {
         }
         // Reading to the end also lets the decoder check its sums.
         loop {
-            let n = source.fill(&mut buffer)?;
+            let n = stream.fill(&mut buffer)?;
             found += n as u128;
             let at_least = found - expected > COUNTED;
             if n == CHUNK && !at_least {
@@ -224,7 +225,7 @@ impl Payload<'_> {
             }
             return if found > expected {
                 Err(self.misfit(part.path, Fault::Long { expected, found, at_least, unit: "bytes" }))
-            } else if source.cut {
+            } else if stream.cut {
                 Err(ReadError::new(
                     part.path,
                     Fault::Damaged("the stream ends too early, or something follows it".to_string()),
@@ -239,7 +240,7 @@ impl Payload<'_> {
     fn text<T: Stored>(
         &self,
         part: &Part,
-        reader: &mut BufReader<File>,
+        reader: &mut dyn BufRead,
         share: usize,
         sink: &mut Sink<T>,
     ) -> Result<(), ReadError> {
@@ -353,14 +354,14 @@ pub(super) fn volume_of(
 }
 
 /// A stream of decoded bytes.
-struct Source<'a> {
+struct DecodedStream<'a> {
     path: &'a Path,
     reader: &'a mut dyn Read,
     /// Whether a compressed stream ended before its end.
     cut: bool,
 }
 
-impl Source<'_> {
+impl DecodedStream<'_> {
     /// Reads until the buffer is full or the stream ends, and says how many bytes came.
     fn fill(&mut self, buffer: &mut [u8]) -> Result<usize, ReadError> {
         let mut filled = 0;

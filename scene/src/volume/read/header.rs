@@ -1,7 +1,7 @@
 //! Text headers: lines with numbers, fields with the line they stand on.
 
 use super::error::{Fault, ReadError, quoted};
-use std::fs::File;
+use crate::source::{Content, Source};
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -10,31 +10,30 @@ use std::str::FromStr;
 const LIMIT: u64 = 1 << 20;
 
 /// Opens a regular file and says its length in bytes.
-pub(super) fn open(file: &Path) -> Result<(File, u64), ReadError> {
+pub(super) fn open<'s>(source: &'s dyn Source, file: &Path) -> Result<(Box<dyn Content + 's>, u64), ReadError> {
     // Asked before opening: opening a pipe waits for its writer.
-    let metadata = std::fs::metadata(file).map_err(|e| ReadError::io(file, e))?;
-    if !metadata.is_file() {
-        return Err(ReadError::new(file, Fault::NotAFile));
-    }
-    let opened = File::open(file).map_err(|e| ReadError::io(file, e))?;
-    Ok((opened, metadata.len()))
+    let length = source.length(file).map_err(|e| ReadError::io(file, e))?;
+    let length = length.ok_or_else(|| ReadError::new(file, Fault::NotAFile))?;
+    Ok((source.open(file).map_err(|e| ReadError::io(file, e))?, length))
 }
 
 /// The lines of a text header.
-pub(super) struct Lines {
+pub(super) struct Lines<'s> {
+    /// The source of the file.
+    pub(super) source: &'s dyn Source,
     file: PathBuf,
-    reader: BufReader<File>,
+    reader: BufReader<Box<dyn Content + 's>>,
     /// Number of the line read last, from 1.
     pub(super) number: usize,
     /// Bytes of the file up to the end of that line.
     pub(super) offset: u64,
 }
 
-impl Lines {
+impl<'s> Lines<'s> {
     /// The lines of a file.
-    pub(super) fn open(file: &Path) -> Result<Self, ReadError> {
-        let (opened, _) = open(file)?;
-        Ok(Self { file: file.to_path_buf(), reader: BufReader::new(opened), number: 0, offset: 0 })
+    pub(super) fn open(source: &'s dyn Source, file: &Path) -> Result<Self, ReadError> {
+        let (opened, _) = open(source, file)?;
+        Ok(Self { source, file: file.to_path_buf(), reader: BufReader::new(opened), number: 0, offset: 0 })
     }
 
     /// Checks how the file begins; the bytes stay unread.
@@ -157,13 +156,14 @@ impl Header {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Disk;
 
     #[test]
     fn lines_have_numbers_and_offsets() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("x");
         std::fs::write(&file, "one\r\ntwo\n\nfour").unwrap();
-        let mut lines = Lines::open(&file).unwrap();
+        let mut lines = Lines::open(&Disk, &file).unwrap();
         let mut all = Vec::new();
         while let Some(line) = lines.read().unwrap() {
             all.push((line, lines.number, lines.offset));
@@ -177,7 +177,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("x");
         std::fs::write(&file, vec![b'a'; LIMIT as usize + 1]).unwrap();
-        let error = Lines::open(&file).unwrap().read().unwrap_err();
+        let error = Lines::open(&Disk, &file).unwrap().read().unwrap_err();
         assert!(matches!(*error.fault, Fault::EndlessHeader { .. }));
     }
 }

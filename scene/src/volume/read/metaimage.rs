@@ -9,6 +9,7 @@ use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
 use super::{Choose, grid_of, header, series};
+use crate::source::Source;
 use crate::volume::{Anatomy, Volume, VoxelType};
 use glam::{DMat3, DVec3};
 use std::path::{Path, PathBuf};
@@ -43,8 +44,8 @@ const KEYS: [&str; 22] = [
 const MOST_AXES: usize = 10;
 
 /// Reads an `.mhd` or `.mha` file.
-pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
-    let mut lines = Lines::open(file)?;
+pub(super) fn read(source: &dyn Source, file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
+    let mut lines = Lines::open(source, file)?;
     let header = fields(file, &mut lines)?;
     let sizes = sizes(&header)?;
     let dims = [sizes[0], sizes[1], sizes[2]];
@@ -77,6 +78,7 @@ pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError
     let (axes, origin, names) = space(&header, sizes.len())?;
     let grid = grid_of(file, dims, axes, origin, names).map_err(|e| header.with_line(e))?;
     let payload = Payload {
+        source,
         header: file,
         sizes: "DimSize",
         count: grid.len(),
@@ -102,7 +104,7 @@ pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError
 }
 
 /// Reads `Key = value` lines up to `ElementDataFile`, which is the last.
-fn fields(file: &Path, lines: &mut Lines) -> Result<Header, ReadError> {
+fn fields(file: &Path, lines: &mut Lines<'_>) -> Result<Header, ReadError> {
     let mut header = Header::new(file);
     while let Some(line) = lines.read()? {
         let Some((written, value)) = line.split_once('=') else {
@@ -220,7 +222,12 @@ fn header_size(header: &Header) -> Result<(u64, bool), ReadError> {
 }
 
 /// The files that `ElementDataFile` names: one, a numbered name with first, last and step, or a list that follows.
-fn data_files(header: &Header, field: &Field, sizes: &[usize], lines: &mut Lines) -> Result<Vec<PathBuf>, ReadError> {
+fn data_files(
+    header: &Header,
+    field: &Field,
+    sizes: &[usize],
+    lines: &mut Lines<'_>,
+) -> Result<Vec<PathBuf>, ReadError> {
     let words: Vec<&str> = field.value.split_whitespace().collect();
     match words.as_slice() {
         [] => Err(header.expected(field, "LOCAL, LIST or a file name")),
@@ -238,7 +245,7 @@ fn data_files(header: &Header, field: &Field, sizes: &[usize], lines: &mut Lines
                 Some(&step) => step,
                 None => last.saturating_sub(first).checked_div(steps).unwrap_or(1),
             };
-            series::numbered(header, field, name, [first, last, step])
+            series::numbered(lines.source, header, field, name, [first, last, step])
         }
         _ => Ok(vec![series::beside(&header.file, &field.value)]),
     }
@@ -248,7 +255,7 @@ fn data_files(header: &Header, field: &Field, sizes: &[usize], lines: &mut Lines
 fn compressed_size(header: &Header, field: &Field, payload: &Payload) -> Result<(), ReadError> {
     let said: u64 = header.number(field, "a number of bytes")?;
     let path = &payload.files[0];
-    let (_, len) = header::open(path)?;
+    let (_, len) = header::open(payload.source, path)?;
     let found = len.saturating_sub(payload.start);
     if said == 0 || said == found {
         return Ok(());

@@ -20,6 +20,7 @@ pub(super) use error::quoted;
 pub use error::{Fault, ReadError};
 
 use super::{Anatomy, KeptVoxels, NotInVolume, Volume};
+use crate::source::{Disk, Source};
 use crate::space::{Grid, SpaceError};
 use crate::volume::RawLayout;
 use glam::{DMat3, DVec3};
@@ -33,10 +34,10 @@ pub const EXTENSIONS: [&str; 12] =
 /// Whether a path names a volume: by its suffix (case does not count), or by a sidecar `FILE.toml` that describes raw
 /// voxels.
 pub fn is_volume(path: &Path) -> bool {
-    suffix(path).is_some() || raw::sidecar(path).is_file()
+    suffix(path).is_some() || Disk.is_file(&raw::sidecar(path))
 }
 
-/// Reads a volume file. The suffix chooses the reader; `raw` describes a file without header and wins over both the
+/// Reads a volume file of the disk. The suffix chooses the reader; `raw` describes a file without header and wins over both the
 /// suffix and a sidecar.
 ///
 /// The voxels keep the file's own type and order, slope and intercept are kept beside them ([VAL-1]), and world
@@ -46,27 +47,37 @@ pub fn is_volume(path: &Path) -> bool {
 /// A file that cannot be opened, is not what its suffix says, lies about its length, has axes that do not span space,
 /// has more than one number a voxel, or no finite value. See [`Fault`].
 pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
-    read_part(path, raw, &|grid, _| Ok(KeptVoxels::all(grid.dims())))
+    read_part(&Disk, path, raw, &all_voxels)
 }
 
 /// Chooses the voxels to keep of a volume, by its grid and its anatomical space.
 pub type Choose<'a> = dyn Fn(&Grid, Option<Anatomy>) -> Result<KeptVoxels, NotInVolume> + 'a;
 
-/// Reads a volume file like [`read`](fn@read), as if it held just the voxels that `choose` keeps ([VOL-1]). The others
+/// The [`Choose`] of all voxels, which never fails.
+pub fn all_voxels(grid: &Grid, _: Option<Anatomy>) -> Result<KeptVoxels, NotInVolume> {
+    Ok(KeptVoxels::all(grid.dims()))
+}
+
+/// Reads a volume file of a source like [`read`](fn@read), as if it held just the voxels that `choose` keeps ([VOL-1]). The others
 /// take no memory.
 ///
 /// # Errors
 /// Those of [`read`](fn@read), and voxels that the file does not have.
-pub fn read_part(path: &Path, raw: Option<&RawLayout>, choose: &Choose<'_>) -> Result<Volume, ReadError> {
+pub fn read_part(
+    source: &dyn Source,
+    path: &Path,
+    raw: Option<&RawLayout>,
+    choose: &Choose<'_>,
+) -> Result<Volume, ReadError> {
     if let Some(layout) = raw {
-        return raw::read(path, layout, None, choose);
+        return raw::read(source, path, layout, None, choose);
     }
-    refuse_dicom(path)?;
+    refuse_dicom(source, path)?;
     match suffix(path) {
-        Some("nrrd" | "nhdr") => nrrd::read(path, choose),
-        Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(path, choose),
-        Some("mhd" | "mha") => metaimage::read(path, choose),
-        known => raw::read_described(path, known.is_some(), choose),
+        Some("nrrd" | "nhdr") => nrrd::read(source, path, choose),
+        Some("nii" | "nii.gz" | "hdr" | "hdr.gz" | "img" | "img.gz") => nifti::read(source, path, choose),
+        Some("mhd" | "mha") => metaimage::read(source, path, choose),
+        known => raw::read_described(source, path, known.is_some(), choose),
     }
 }
 
@@ -74,19 +85,23 @@ pub fn read_part(path: &Path, raw: Option<&RawLayout>, choose: &Choose<'_>) -> R
 ///
 /// # Errors
 /// [`Fault::Dicom`] and [`Fault::DicomFolder`]. A path that cannot be read passes: who reads it says why.
-pub fn refuse_dicom(path: &Path) -> Result<(), ReadError> {
+pub fn refuse_dicom(source: &dyn Source, path: &Path) -> Result<(), ReadError> {
     /// Entries of a folder that are looked at.
     const ENTRIES: usize = 64;
-    if let Ok(entries) = std::fs::read_dir(path) {
-        let mut files = entries.take(ENTRIES).flatten().map(|entry| entry.path()).filter(|path| path.is_file());
-        return if files.any(|file| is_dicom(&file)) { Err(ReadError::new(path, Fault::DicomFolder)) } else { Ok(()) };
+    if let Ok(entries) = source.list(path) {
+        let mut files = entries.into_iter().take(ENTRIES);
+        return if files.any(|file| is_dicom(source, &file)) {
+            Err(ReadError::new(path, Fault::DicomFolder))
+        } else {
+            Ok(())
+        };
     }
-    if is_dicom(path) { Err(ReadError::new(path, Fault::Dicom)) } else { Ok(()) }
+    if is_dicom(source, path) { Err(ReadError::new(path, Fault::Dicom)) } else { Ok(()) }
 }
 
 /// Whether a file is one of DICOM: by its suffix, or by its mark behind a preamble of 128 bytes.
-fn is_dicom(path: &Path) -> bool {
-    let Ok((file, _)) = header::open(path) else { return false };
+fn is_dicom(source: &dyn Source, path: &Path) -> bool {
+    let Ok((file, _)) = header::open(source, path) else { return false };
     let has_suffix = path.extension().is_some_and(|e| ["dcm", "dicom"].iter().any(|s| e.eq_ignore_ascii_case(s)));
     let mut start = Vec::new();
     has_suffix || file.take(132).read_to_end(&mut start).is_ok() && start.get(128..) == Some(b"DICM")

@@ -12,6 +12,7 @@ use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
 use super::{Choose, grid_of, header, with_suffix};
+use crate::source::Source;
 use crate::volume::RawLayout;
 use crate::volume::{Volume, VoxelType};
 use glam::{DMat3, DVec3};
@@ -30,6 +31,7 @@ pub(super) fn sidecar(file: &Path) -> PathBuf {
 /// Reads voxels in a given layout. `described` is the file that gives the layout, none where flags do. A name that
 /// ends in `.gz` says that the file is compressed.
 pub(super) fn read(
+    source: &dyn Source,
     file: &Path,
     layout: &RawLayout,
     described: Option<&Path>,
@@ -44,6 +46,7 @@ pub(super) fn read(
         grid_of(described, layout.size, axes, DVec3::ZERO, [size, spacing, spacing]).map_err(ReadError::of_layout)?;
     let compressed = file.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
     let payload = Payload {
+        source,
         header: described,
         sizes: size,
         count: grid.len(),
@@ -62,14 +65,19 @@ pub(super) fn read(
 
 /// Reads voxels in the layout of a sidecar. Without one it is an error, whose advice depends on whether the suffix is
 /// a known one.
-pub(super) fn read_described(file: &Path, known_suffix: bool, choose: &Choose<'_>) -> Result<Volume, ReadError> {
-    header::open(file)?;
+pub(super) fn read_described(
+    source: &dyn Source,
+    file: &Path,
+    known_suffix: bool,
+    choose: &Choose<'_>,
+) -> Result<Volume, ReadError> {
+    header::open(source, file)?;
     let description = sidecar(file);
-    if !description.is_file() {
+    if !source.is_file(&description) {
         return Err(ReadError::new(file, if known_suffix { Fault::NoLayout } else { Fault::Suffix }));
     }
-    let layout = parse(&description).map_err(ReadError::of_layout)?;
-    read(file, &layout, Some(&description), choose)
+    let layout = parse(source, &description).map_err(ReadError::of_layout)?;
+    read(source, file, &layout, Some(&description), choose)
 }
 
 #[derive(Deserialize)]
@@ -98,8 +106,8 @@ fn unit() -> [f64; 3] {
     [1.0; 3]
 }
 
-fn parse(description: &Path) -> Result<RawLayout, ReadError> {
-    let (file, _) = header::open(description)?;
+fn parse(source: &dyn Source, description: &Path) -> Result<RawLayout, ReadError> {
+    let (file, _) = header::open(source, description)?;
     let mut text = String::new();
     file.take(LIMIT).read_to_string(&mut text).map_err(|e| ReadError::io(description, e))?;
     let Sidecar { size, voxel_type, endian, spacing, skip } = toml::from_str(&text).map_err(|e| {

@@ -2,6 +2,7 @@
 
 use super::error::{Fault, ReadError};
 use super::header::{Field, Header, Lines};
+use crate::source::Source;
 use std::path::{Path, PathBuf};
 
 /// The most digits that a number in a name is padded to.
@@ -13,7 +14,7 @@ pub(super) fn beside(header: &Path, name: &str) -> PathBuf {
 }
 
 /// The file names on the remaining lines of a header, blank lines left out.
-pub(super) fn list(header: &Path, lines: &mut Lines) -> Result<Vec<PathBuf>, ReadError> {
+pub(super) fn list(header: &Path, lines: &mut Lines<'_>) -> Result<Vec<PathBuf>, ReadError> {
     let mut files = Vec::new();
     while let Some(line) = lines.read()? {
         let name = line.trim();
@@ -28,6 +29,7 @@ pub(super) fn list(header: &Path, lines: &mut Lines) -> Result<Vec<PathBuf>, Rea
 /// of `step`. A field may ask for any number of files. The first missing file therefore ends the series, and is an
 /// error.
 pub(super) fn numbered(
+    source: &dyn Source,
     header: &Header,
     field: &Field,
     name: &str,
@@ -41,7 +43,7 @@ pub(super) fn numbered(
     let mut number = Some(first);
     while let Some(n) = number.filter(|&n| if step > 0 { n <= last } else { n >= last }) {
         let file = beside(&header.file, &name.with(n));
-        if let Err(e) = std::fs::metadata(&file) {
+        if let Err(e) = source.length(&file) {
             return Err(ReadError::new(&file, Fault::Io(e)));
         }
         files.push(file);
@@ -92,6 +94,7 @@ impl NumberedName {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::source::Disk;
 
     #[test]
     fn names_as_printf_writes_them() {
@@ -116,7 +119,7 @@ mod tests {
         let field = header.get("data file").unwrap();
         let names = |range| {
             let name = |file: PathBuf| file.file_name().unwrap().to_string_lossy().into_owned();
-            numbered(&header, field, "s%d", range).map(|files| files.into_iter().map(name).collect::<Vec<_>>())
+            numbered(&Disk, &header, field, "s%d", range).map(|files| files.into_iter().map(name).collect::<Vec<_>>())
         };
         assert_eq!(names([1, 5, 2]).unwrap(), ["s1", "s3", "s5"]);
         assert_eq!(names([5, 1, -4]).unwrap(), ["s5", "s1"]);

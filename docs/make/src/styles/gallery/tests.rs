@@ -3,6 +3,7 @@
 use super::light::{BOUNCE, KEY};
 use super::*;
 use drypoint::scene::color::srgb_to_linear;
+use drypoint::scene::source::Disk;
 use drypoint::scene::style::{Style, Theme, load};
 use drypoint::scene::tables::{StyleSource, Styles};
 use rayon::prelude::*;
@@ -59,8 +60,8 @@ fn every_theme_has_every_name_and_says_how() {
 fn the_files_of_the_themes_are_what_these_formulas_paint() {
     for theme in THEMES {
         let table = Styles { theme: StyleSource::Embedded(theme.name.into()), files: Vec::new() };
-        let names: Vec<String> = Theme::open(&table.theme).unwrap().names().map(Into::into).collect();
-        let files = load(&table, names.iter().map(String::as_str)).unwrap();
+        let names: Vec<String> = Theme::open(&Disk, &table.theme).unwrap().names().map(Into::into).collect();
+        let files = load(&Disk, &table, names.iter().map(String::as_str)).unwrap();
         assert_eq!(files.len(), theme.styles().count(), "{}", theme.name);
         let styles: Vec<GalleryStyle> = theme.styles().collect();
         files.par_iter().zip(styles).for_each(|(file, style)| {

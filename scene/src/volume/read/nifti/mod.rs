@@ -10,6 +10,7 @@ use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError};
 use super::limits::Encoding;
 use super::{Choose, grid_of, header, suffix};
+use crate::source::Source;
 use crate::volume::{Anatomy, Volume, VoxelType};
 use fields::Fields;
 use flate2::bufread::MultiGzDecoder;
@@ -17,14 +18,14 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 /// Reads a NIfTI file, or the pair that an `.hdr` or `.img` file belongs to.
-pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
-    let (header, data) = pair(file);
-    let (bytes, header_encoding) = start_of(&header)?;
+pub(super) fn read(source: &dyn Source, file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
+    let (header, data) = pair(source, file);
+    let (bytes, header_encoding) = start_of(source, &header)?;
     let fields = Fields::parse(&header, &bytes)?;
     let (data, encoding) = if fields.single {
         (header.clone(), header_encoding)
     } else {
-        let encoding = start_of(&data)?.1;
+        let encoding = start_of(source, &data)?.1;
         (data, encoding)
     };
     let dims = dims(&header, &fields)?;
@@ -37,6 +38,7 @@ pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError
         slope => [slope, fields.scl_inter],
     };
     let payload = Payload {
+        source,
         header: &header,
         sizes: "dim",
         count: grid.len(),
@@ -55,7 +57,7 @@ pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError
 }
 
 /// The header that a path belongs to, and the data file beside it, which only a pair has.
-fn pair(file: &Path) -> (PathBuf, PathBuf) {
+fn pair(source: &dyn Source, file: &Path) -> (PathBuf, PathBuf) {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let suffix = suffix(file).unwrap_or_default();
     let stem = file.with_file_name(&name[..name.len() - suffix.len()]);
@@ -63,14 +65,14 @@ fn pair(file: &Path) -> (PathBuf, PathBuf) {
     let half = |suffix: &str| {
         let candidates = [suffix.to_string(), format!("{suffix}.gz"), suffix.to_uppercase()];
         let [plain, rest @ ..] = candidates.map(|suffix| super::with_suffix(&stem, &suffix));
-        if plain.is_file() { plain } else { rest.into_iter().find(|path| path.is_file()).unwrap_or(plain) }
+        if source.is_file(&plain) { plain } else { rest.into_iter().find(|path| source.is_file(path)).unwrap_or(plain) }
     };
     if suffix.starts_with("img") { (half("hdr"), file.to_path_buf()) } else { (file.to_path_buf(), half("img")) }
 }
 
 /// The first bytes of a file, decoded, and how the file is stored; its own magic says so, not its name.
-fn start_of(file: &Path) -> Result<(Vec<u8>, Encoding), ReadError> {
-    let (opened, _) = header::open(file)?;
+fn start_of(source: &dyn Source, file: &Path) -> Result<(Vec<u8>, Encoding), ReadError> {
+    let (opened, _) = header::open(source, file)?;
     let mut reader = BufReader::new(opened);
     let failed = |e| ReadError::io(file, e);
     let zipped = reader.fill_buf().map_err(failed)?.starts_with(&[0x1f, 0x8b]);

@@ -51,7 +51,7 @@ fn name(written: &str) -> Option<&'static str> {
 
 /// Reads the lines up to the blank line that ends the header, to the end of the file, or to a list of data files. Data
 /// can follow only a blank line, or lie in files that the header names.
-pub(super) fn read(file: &Path, lines: &mut Lines) -> Result<Header, ReadError> {
+pub(super) fn read(file: &Path, lines: &mut Lines<'_>) -> Result<Header, ReadError> {
     lines.magic("an NRRD file", "NRRD000")?;
     lines.read()?;
     let mut header = Header::new(file);

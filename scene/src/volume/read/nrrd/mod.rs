@@ -11,12 +11,13 @@ use super::error::{Fault, ReadError, quoted};
 use super::header::{Field, Header, Lines};
 use super::limits::Encoding;
 use super::{Choose, series};
+use crate::source::Source;
 use crate::volume::{Volume, VoxelType};
 use std::path::{Path, PathBuf};
 
 /// Reads an `.nrrd` or `.nhdr` file.
-pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
-    let mut lines = Lines::open(file)?;
+pub(super) fn read(source: &dyn Source, file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError> {
+    let mut lines = Lines::open(source, file)?;
     let header = fields::read(file, &mut lines)?;
     let (voxel_type, big_endian) = number(&header)?;
     let encoding = encoding(&header)?;
@@ -28,6 +29,7 @@ pub(super) fn read(file: &Path, choose: &Choose<'_>) -> Result<Volume, ReadError
     let skips = skips(&header, encoding)?;
     let grid = axes.grid(&header)?;
     let payload = Payload {
+        source,
         header: file,
         sizes: "sizes",
         count: grid.len(),
@@ -100,14 +102,19 @@ fn encoding(header: &Header) -> Result<Encoding, ReadError> {
 }
 
 /// The files that `data file` names: one, a numbered name, or a list that ends the header.
-fn data_files(header: &Header, field: &Field, sizes: &[usize], lines: &mut Lines) -> Result<Vec<PathBuf>, ReadError> {
+fn data_files(
+    header: &Header,
+    field: &Field,
+    sizes: &[usize],
+    lines: &mut Lines<'_>,
+) -> Result<Vec<PathBuf>, ReadError> {
     let words: Vec<&str> = field.value.split_whitespace().collect();
     let (files, axes_a_file) = match words.as_slice() {
         ["LIST", rest @ ..] if rest.len() < 2 => (series::list(&header.file, lines)?, rest.first()),
         [name, first, last, step, rest @ ..] if name.contains('%') && rest.len() < 2 => {
             let number = |word: &str| word.parse().map_err(|_| header.expected(field, "a name, first, last and step"));
             let range = [number(first)?, number(last)?, number(step)?];
-            (series::numbered(header, field, name, range)?, rest.first())
+            (series::numbered(lines.source, header, field, name, range)?, rest.first())
         }
         [] => return Err(header.expected(field, "a file name")),
         _ => return Ok(vec![series::beside(&header.file, &field.value)]),

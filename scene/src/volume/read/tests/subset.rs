@@ -2,6 +2,7 @@
 
 use super::super::{Fault, read_part};
 use super::*;
+use crate::source::Disk;
 use crate::tables::RawLayout;
 use crate::volume::Subset;
 use std::path::Path;
@@ -12,7 +13,7 @@ const DIMS: [usize; 3] = [5, 4, 3];
 const SUBSET: Subset = Subset { ranges: Some([[1, 4], [1, 3], [0, 2]]), stride: [2, 1, 2] };
 
 fn part(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
-    read_part(path, raw, &|grid, _| SUBSET.of(grid.dims()))
+    read_part(&Disk, path, raw, &|grid, _| SUBSET.of(grid.dims()))
 }
 
 /// Voxels that hold their linear index, and the kept ones.
@@ -63,7 +64,7 @@ fn voxels_that_are_left_out_may_be_anything() {
     let header = nrrd_lines(VoxelType::F32, "5 4 3", "raw", false) + "\n";
     let holed = Subset { ranges: None, stride: [1, 1, 2] };
     let path = folder.put("a.nrrd", joined(header, &bytes_of(&voxels, false)));
-    assert!(read_part(&path, None, &|grid, _| holed.of(grid.dims())).unwrap().mask().is_none());
+    assert!(read_part(&Disk, &path, None, &|grid, _| holed.of(grid.dims())).unwrap().mask().is_none());
     assert_eq!(read(&path, None).unwrap().mask().map(crate::volume::Mask::count), Some(1));
     let own = Voxels::F32(kept.into_iter().map(value).collect());
     assert_eq!(part(&path, None).unwrap().voxels(), &own);
