@@ -1,4 +1,4 @@
-//! What a viewer waits for before a frame on a graphics card: frames that are made anew, and frames that take a changed scene.
+//! Times to prepare frames on a graphics card: frames that are made anew, and frames that take a changed scene.
 //! 256³ voxels, styles with contours, a clip plane.
 //!
 //! `cargo bench --bench change --features gpu`
@@ -28,9 +28,11 @@ fn main() -> Result<(), String> {
     let failed = |failure: drypoint::Failure| failure.to_string();
     let tables = [STYLES, "[contours]\n", "[[clip]]\nnormal = [1, 0, 0]\npoint = [120, 0, 0]\n"].concat();
     let first = job(&[&tables], "1");
-    let timed = |run: &mut dyn FnMut() -> Result<(), String>| {
+    let timed = |run: &mut dyn FnMut() -> Result<(), String>| -> Result<f64, String> {
         let start = Instant::now();
-        run().map(|()| 1e3 * start.elapsed().as_secs_f64())
+        run()?;
+        gpu.wait().map_err(|error| error.to_string())?;
+        Ok(1e3 * start.elapsed().as_secs_f64())
     };
     let mut frames = GpuFrames::new(&first, &gpu).map_err(failed)?;
     let (mut anew, compiled) = (Vec::new(), gpu.pipelines());

@@ -6,6 +6,7 @@
 
 #[cfg(feature = "gpu")]
 use drypoint::frames::Frames;
+#[cfg(feature = "gpu")]
 use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::Job;
 use drypoint::reference::ray::Renderer;

@@ -18,7 +18,6 @@ use drypoint_scene::tables::{Orbit, Scene};
 use drypoint_scene::view::View;
 use frame_writer::FrameWriter;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -99,11 +98,6 @@ impl<'a> Drawing<'a> {
         Ok(Self { job, first, orbit, shot, renderer, marks })
     }
 
-    /// Hands over what stops frames of the volume. See [`Frames::stop_by`].
-    pub fn stop_by(&mut self, stop: &Arc<AtomicBool>) {
-        self.renderer.iter_mut().for_each(|frames| frames.stop_by(stop.clone()));
-    }
-
     /// Returns the number of frames: those of `[orbit]`, or one.
     pub fn frames(&self) -> usize {
         self.orbit.map_or(1, |orbit| orbit.frames)
@@ -120,6 +114,20 @@ impl<'a> Drawing<'a> {
     /// # Errors
     /// A camera so far away that sample planes coincide in floating point, or a picture without enough memory.
     pub fn frame(&mut self, frame: usize, progress: &(dyn Fn(f64) + Sync)) -> Result<(Frame, Counts), Failure> {
+        let frame = self.frame_until(frame, progress, &AtomicBool::new(false))?;
+        Ok(frame.unwrap_or_else(|| unreachable!("nothing stops the frame")))
+    }
+
+    /// Draws a frame like [`Drawing::frame`], unless it is stopped. See [`Frames::frame_until`].
+    ///
+    /// # Errors
+    /// Same errors as [`Drawing::frame`].
+    pub fn frame_until(
+        &mut self,
+        frame: usize,
+        progress: &(dyn Fn(f64) + Sync),
+        stop: &AtomicBool,
+    ) -> Result<Option<(Frame, Counts)>, Failure> {
         let scene = &self.job.scene;
         let mut counts = Counts::default();
         let view = match self.orbit {
@@ -152,14 +160,14 @@ impl<'a> Drawing<'a> {
                     renderer.turn(&shot.seen_from(view))?;
                 }
                 let start = Instant::now();
-                let (picture, own) = renderer.frame(progress)?;
+                let Some((picture, own)) = renderer.frame_until(progress, stop)? else { return Ok(None) };
                 counts.add(&own);
                 counts.seconds.insert("rays".into(), start.elapsed().as_secs_f64());
                 Some(picture)
             }
             None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
-        Ok((Frame { number: frame, picture, marks, inside }, counts))
+        Ok(Some((Frame { number: frame, picture, marks, inside }, counts)))
     }
 }
 

@@ -11,7 +11,6 @@ use drypoint_scene::fragments::Fragments;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::Scene;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -35,15 +34,25 @@ pub trait Frames {
     /// A camera too far away.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
 
-    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
-    /// soon: an unfinished picture. A frame is paused by a `progress` that waits.
-    fn stop_by(&mut self, stop: Arc<AtomicBool>);
-
-    /// Draws a frame, with its own counts, `progress` hears the share that is done, from any thread.
+    /// Draws a frame, with its own counts. `progress` hears the share that is done, from any thread; a frame is paused while it
+    /// waits. Once `stop` is true the frame soon ends without a picture, unless all is drawn.
     ///
     /// # Errors
     /// Errors of the adapter.
-    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure>;
+    fn frame_until(
+        &mut self,
+        progress: &(dyn Fn(f64) + Sync),
+        stop: &AtomicBool,
+    ) -> Result<Option<(Picture, Counts)>, Failure>;
+
+    /// Draws a frame that nothing stops. See [`Frames::frame_until`].
+    ///
+    /// # Errors
+    /// Same errors as [`Frames::frame_until`].
+    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
+        let frame = self.frame_until(progress, &AtomicBool::new(false))?;
+        Ok(frame.unwrap_or_else(|| unreachable!("nothing stops the frame")))
+    }
 
     /// Draws a frame where a viewer has it, and waits for it: the reference in memory, a graphics card in a texture. Returns
     /// the seconds of its rays by the adapter's clock; none without one.
@@ -84,12 +93,12 @@ impl Frames for ReferenceFrames<'_> {
         self.renderer.turn(shot).map_err(|error| render_failure(&error, self.scene))
     }
 
-    fn stop_by(&mut self, stop: Arc<AtomicBool>) {
-        self.renderer.stop_by(stop);
-    }
-
-    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
-        Ok(self.renderer.again(progress))
+    fn frame_until(
+        &mut self,
+        progress: &(dyn Fn(f64) + Sync),
+        stop: &AtomicBool,
+    ) -> Result<Option<(Picture, Counts)>, Failure> {
+        Ok(self.renderer.again_until(progress, stop))
     }
 
     fn show(&mut self) -> Result<Option<f64>, Failure> {

@@ -8,7 +8,7 @@ use drypoint_gpu::{CardInputs, Renderer};
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
 pub use drypoint_gpu::{HiddenPoints, Hiding, Volume};
 use drypoint_reference::ray::lattice::samples_in;
-use drypoint_reference::ray::measure;
+use drypoint_reference::ray::{measure, within_planes};
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::file::Given;
@@ -17,7 +17,7 @@ use drypoint_scene::inputs::Inputs;
 use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::plan::{Pass, Plan};
-use drypoint_scene::shot::{Shot, ShotChange};
+use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::Scene;
 use std::sync::Arc;
@@ -174,44 +174,34 @@ impl GpuFrames {
         Ok(Self { gpu: gpu.clone(), uploaded, renderer, grid, given, shown: None })
     }
 
-    /// Takes another scene for the frames that follow, for example one of which the user has moved a clip plane. Volumes that
-    /// both jobs share stay on the card, facts of them that the scene does not change are not measured again, and pipelines
-    /// stay where the shader's text does ([`Renderer::change`]).
+    /// Takes another scene for the frames that follow, for example one of which the user has moved a clip plane; lines inside the
+    /// volume go. Facts of volumes that both jobs share stay, and so do the volumes on the card, unless the scene asks for others
+    /// ([`Shot::keeps_facts_of`]). Then all are measured and uploaded anew, while those of before are still there. Pipelines stay
+    /// where the shader's text does ([`Renderer::change`]).
     ///
     /// # Errors
     /// Same errors as [`GpuFrames::new`]. The frames that follow are then those of before.
-    pub fn change(&mut self, job: &Job) -> Result<ShotChange, Failure> {
+    pub fn change(&mut self, job: &Job) -> Result<(), Failure> {
         let (shot, has_lines) = (job.shot()?, job.plan.has_pass(Pass::MergedStrokes));
-        let change = match self.uploaded.are_of(job) {
-            true => shot.change_from(&self.uploaded.shot),
-            false => ShotChange::Facts,
-        };
-        if has_lines == self.uploaded.has_lines && change <= ShotChange::View {
-            self.turn(&shot)?;
-        } else {
-            has_room(job, &job.scene, &job.plan)?;
+        has_room(job, &job.scene, &job.plan)?;
+        if self.uploaded.are_of(job) && shot.keeps_facts_of(&self.uploaded.shot) {
+            within_planes(&shot, job.volume.grid()).map_err(|error| render_failure(&error, &job.scene))?;
             let data = job.inputs(&shot);
-            let renewed = match change {
-                ShotChange::Facts => {
-                    Some(Uploaded::new((job, &self.gpu), shot.clone(), (&job.scene, &job.plan), Precision::Single)?)
-                }
-                _ => None,
-            };
-            let uploaded = renewed.as_ref().unwrap_or(&self.uploaded);
-            let inputs = CardInputs { has_lines, ..uploaded.inputs(&data) };
-            let changed = self.renderer.change(&uploaded.volumes, &shot, &inputs);
+            let inputs = CardInputs { has_lines, ..self.uploaded.inputs(&data) };
+            let changed = self.renderer.change(&self.uploaded.volumes, &shot, &inputs);
             changed.map_err(|error| failure(&error, &job.scene.given))?;
-            if let Some(renewed) = renewed {
-                self.uploaded = renewed;
-            }
-            self.uploaded.has_lines = has_lines;
+            (self.uploaded.shot, self.uploaded.has_lines) = (shot, has_lines);
+        } else {
+            let renewed = Uploaded::new((job, &self.gpu), shot, (&job.scene, &job.plan), Precision::Single)?;
+            let data = job.inputs(&renewed.shot);
+            let changed = self.renderer.change(&renewed.volumes, &renewed.shot, &renewed.inputs(&data));
+            changed.map_err(|error| failure(&error, &job.scene.given))?;
+            self.uploaded = renewed;
         }
-        if self.uploaded.shot.view.size != shot.view.size {
-            self.shown = None;
-        }
-        self.uploaded.shot = shot;
+        let size = self.uploaded.shot.view.size.map(|n| n as u32);
+        self.shown = self.shown.take().filter(|texture| [texture.width(), texture.height()] == size);
         (self.grid, self.given) = (job.volume.grid().clone(), job.scene.given.clone());
-        Ok(change)
+        Ok(())
     }
 
     /// Returns the bytes of the volume's numbers on the card.
@@ -248,16 +238,17 @@ impl Frames for GpuFrames {
         self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))
     }
 
-    fn stop_by(&mut self, stop: Arc<AtomicBool>) {
-        self.renderer.stop_by(stop);
-    }
-
-    fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
-        let picture = self.renderer.frame(progress).map_err(|error| self.failure(&error))?;
+    fn frame_until(
+        &mut self,
+        progress: &(dyn Fn(f64) + Sync),
+        stop: &AtomicBool,
+    ) -> Result<Option<(Picture, Counts)>, Failure> {
+        let drawn = self.renderer.frame_until(progress, stop).map_err(|error| self.failure(&error))?;
+        let Some(picture) = drawn else { return Ok(None) };
         let mut counts = Counts::default();
         let on_card = self.renderer.seconds().map_err(|error| self.failure(&error))?;
         counts.seconds.extend(on_card.map(|seconds| ("rays on the card".into(), seconds)));
-        Ok((picture, counts))
+        Ok(Some((picture, counts)))
     }
 
     fn show(&mut self) -> Result<Option<f64>, Failure> {

@@ -17,11 +17,10 @@ pub(crate) struct Canvas<'f> {
     pub(crate) data: &'f wgpu::BindGroup,
     pub(crate) picture: &'f PictureBuffers,
     pub(crate) clock: Option<&'f Clock>,
-    /// Hears the share of the frame that is done, after each submission, which is waited for then.
-    pub(crate) progress: Option<&'f dyn Fn(f64)>,
-    /// What stops the frame.
-    pub(crate) stop: &'f AtomicBool,
-    /// Whether it was stopped.
+    /// The listener who hears the share of the frame that is done after each submission, which is waited for then; and the flag
+    /// that stops the frame.
+    pub(crate) steps: Option<(&'f dyn Fn(f64), &'f AtomicBool)>,
+    /// Whether the frame was stopped.
     pub(crate) stopped: &'f Cell<bool>,
 }
 
@@ -67,13 +66,14 @@ impl Canvas<'_> {
 
     /// Whether nothing more is drawn of the frame.
     pub(crate) fn is_stopped(&self) -> bool {
-        self.stopped.set(self.stopped.get() || self.stop.load(Ordering::Relaxed));
+        let is_asked = self.steps.is_some_and(|(_, stop)| stop.load(Ordering::Relaxed));
+        self.stopped.set(self.stopped.get() || is_asked);
         self.stopped.get()
     }
 
     /// Waits for the submissions and tells the share that is done, if anybody listens.
     pub(crate) fn report(&self, share: f64) -> Result<(), GpuError> {
-        if let Some(progress) = self.progress {
+        if let Some((progress, _)) = self.steps {
             self.gpu.wait()?;
             progress(share);
         }

@@ -22,7 +22,6 @@ use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
 use std::cell::Cell;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// The first channel of a pixel whose rays the driver ended lies below.
@@ -57,8 +56,6 @@ pub struct Renderer {
     funnels: Option<FunnelPasses>,
     /// The places of the shot's objects.
     objects: PlacesOfObjects,
-    /// Whether frames are stopped.
-    stop: Arc<AtomicBool>,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
     /// Those, with the beauty first where edges are found by it.
@@ -143,16 +140,15 @@ impl Renderer {
             lines,
             objects,
             funnels,
-            stop: Arc::default(),
             asked: shot.layers.clone(),
             layers,
             size: shot.view.size,
         })
     }
 
-    /// Takes another shot for the frames that follow. Volumes and inputs are those of [`Renderer::new`]. Pipelines are compiled
-    /// only where the text of the shader or the size of a buffer changes; a change of numbers, colours or clip planes uploads
-    /// scalars and the lists that differ.
+    /// Takes another shot for the frames that follow, by the arguments of [`Renderer::new`]; lines inside the volume go. Pipelines
+    /// are compiled only where the text of the shader, the layers, the size of the picture or the reach of halos and funnels
+    /// differs. Other numbers and colours, and moved clip planes, are uploaded as scalars and as the lists that differ.
     ///
     /// # Errors
     /// See [`Renderer::new`]. The renderer then draws the shot of before.
@@ -171,17 +167,14 @@ impl Renderer {
                 Rays::Together(planes) => planes.fit(shot),
             };
         if !stays {
-            let stop = self.stop.clone();
-            *self = Self { stop, ..Self::compiled(&self.gpu, volumes, shot, inputs, (shader, scales, text))? };
+            *self = Self::compiled(&self.gpu, volumes, shot, inputs, (shader, scales, text))?;
             return Ok(());
         }
         let objects = PlacesOfObjects::new(shot, inputs)?;
         let before = Some((&self.shader, &self.data));
         self.data = bind_data(&self.gpu, volumes, &shader, &self.data_layout, self.precision, before)?;
         let grid = inputs.data.main.volume.grid();
-        if let Some(lines) = &mut self.lines {
-            lines.turn(shot, grid);
-        }
+        self.lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         match &mut self.rays {
             Rays::Alone(passes) => passes.turn(shot, grid),
             Rays::Together(planes) => planes.change(shot, grid, others_in(inputs, &objects)),
@@ -197,11 +190,13 @@ impl Renderer {
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         let place = Place::own(shot, grid);
-        self.shader.block.update(&compose::camera(shot, &place)?);
-        self.shader.block.update(&compose::objects::camera(shot, &self.objects, &place)?);
+        let blocks = [compose::camera(shot, &place)?, compose::objects::camera(shot, &self.objects, &place)?];
+        blocks.iter().for_each(|block| self.shader.block.update(block));
         let is_lighting = |(_, _, data): &(u32, &str, Data)| matches!(data, Data::Lighting(_));
         let tables = self.shader.data.iter().zip(&self.data.lists).filter(|(data, _)| is_lighting(data));
-        for (table, cells) in tables.filter_map(|(_, list)| list.as_ref()).zip(volumeshop::lighting_cells(shot)) {
+        for (table, cells) in
+            tables.filter_map(|(_, list)| list.as_ref()).zip(volumeshop::lighting_cells(self.objects.drawn(shot)))
+        {
             self.gpu.queue.write_buffer(table, 0, &self.precision.bytes(&cells));
         }
         if let Some(lines) = &mut self.lines {
@@ -227,17 +222,20 @@ impl Renderer {
         Ok(())
     }
 
-    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
-    /// soon: an unfinished picture.
-    pub fn stop_by(&mut self, stop: Arc<AtomicBool>) {
-        self.stop = stop;
-    }
-
     /// Draws one frame. `progress` hears the share of the picture that is done.
     ///
     /// # Errors
     /// A device that is lost, or has no memory for the picture.
     pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, GpuError> {
+        let picture = self.frame_until(progress, &AtomicBool::new(false))?;
+        Ok(picture.unwrap_or_else(|| unreachable!("nothing stops the frame")))
+    }
+
+    /// Draws one frame, unless `stop` becomes true before the last band of rows or the last planes: then there is no picture.
+    ///
+    /// # Errors
+    /// See [`Renderer::frame`].
+    pub fn frame_until(&mut self, progress: &dyn Fn(f64), stop: &AtomicBool) -> Result<Option<Picture>, GpuError> {
         let [width, height] = self.size;
         let kinds: Vec<LayerKind> =
             self.layers.iter().flat_map(|&layer| std::iter::repeat_n(layer, layer.channels().len())).collect();
@@ -247,8 +245,8 @@ impl Renderer {
         }
         for first in (0..height).step_by(self.picture.rows) {
             let rows = first..(first + self.picture.rows).min(height);
-            if !self.draw_rows(rows.clone(), Some(progress))? {
-                break;
+            if !self.draw_rows(rows.clone(), Some((progress, stop)))? {
+                return Ok(None);
             }
             let bytes = self.picture.bytes_a_row * rows.len() as u64;
             let numbers = self.precision.numbers(&read(&self.gpu, &self.picture.back, bytes)?);
@@ -273,7 +271,7 @@ impl Renderer {
         let place = |layer: &Layer| self.asked.iter().position(|&asked| asked == layer.kind);
         layers.retain(|layer| place(layer).is_some());
         layers.sort_by_key(place);
-        Ok(Picture { width, height, layers })
+        Ok(Some(Picture { width, height, layers }))
     }
 
     /// Draws one frame into a viewer's texture, without waiting for it: the beauty in premultiplied linear light. The texture
@@ -283,9 +281,7 @@ impl Renderer {
     /// A shot without a beauty, a picture that does not fit in one buffer, and a device that is lost.
     pub fn frame_into(&mut self, target: &wgpu::TextureView) -> Result<(), GpuError> {
         self.fits_whole()?;
-        if !self.draw_rows(0..self.size[1], None)? {
-            return Ok(());
-        }
+        self.draw_rows(0..self.size[1], None)?;
         let presentation = match self.presentation.take() {
             Some(presentation) => presentation,
             None => Presentation::new(&self.gpu, self.precision, self.size, &self.layers)?,
@@ -304,12 +300,12 @@ impl Renderer {
         self.clock.as_ref().map(|clock| clock.seconds(&self.gpu)).transpose()
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back. Returns whether that was not stopped.
-    fn draw_rows(&mut self, rows: Range<usize>, progress: Option<&dyn Fn(f64)>) -> Result<bool, GpuError> {
-        let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, stop, .. } = self;
-        let gpu = &*gpu;
-        let stopped = Cell::new(false);
-        let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), progress, stop, stopped: &stopped };
+    /// Draws rows into the picture's buffer, and copies them to the one that is read back. Returns whether all were drawn. A
+    /// frame in steps has a listener and a flag that stops it.
+    fn draw_rows(&mut self, rows: Range<usize>, steps: Option<(&dyn Fn(f64), &AtomicBool)>) -> Result<bool, GpuError> {
+        let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
+        let (gpu, stopped) = (&*gpu, Cell::new(false));
+        let canvas = Canvas { gpu, params, data, picture, clock: clock.as_ref(), steps, stopped: &stopped };
         if let Some(funnels) = &self.funnels {
             canvas.write_params(&self.shader.block, self.precision)?;
             funnels.draw(&canvas)?;

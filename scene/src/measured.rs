@@ -13,7 +13,7 @@ pub struct PaddedNumbers {
     pub dims: [usize; 3],
     /// Numbers before the first voxel of a line.
     pub pad: usize,
-    /// The largest magnitude.
+    /// The largest magnitude. It stays when the numbers go ([`Measured::without_numbers`]).
     pub largest: f64,
 }
 

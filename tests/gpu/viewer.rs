@@ -6,9 +6,7 @@ use drypoint::gpu::{GpuFrames, GpuJob, Interpolation, Precision, wgpu};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::picture::{LayerKind, Picture};
-use drypoint::scene::shot::ShotChange;
 use drypoint::scene::volume::Voxels;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A scene of which every voxel can be seen, so that first samples are those of the box.
@@ -117,67 +115,80 @@ normal = [-1, 0, 0]
 point = [2, 0, 0]
 "##;
 
-/// After a change frames are those of the changed scene, bit for bit. What a user drags compiles nothing: camera, light,
-/// nodes, clip planes. Facts of the volume are measured anew only where the scene changes them.
+/// After a change frames are those of the changed scene, bit for bit, in pictures and in the viewer's texture. What a user drags
+/// compiles nothing: camera, light, nodes, clip planes, objects.
 #[test]
 fn a_changed_scene_is_drawn_as_if_it_were_new() {
     let Some(gpu) = gpu() else { return };
     let halo = "[[halo]]\nseed.value = [[150, 0], [180, 1]]\n";
     let object = "[[object]]\nname = \"part\"\nvalue = [[150, 0], [180, 1]]\nmove = [0, 2, 0]\n[object.ghost]\n";
-    // A base, what it is changed to, the level, whether pipelines stay.
-    let edits: [(&str, &str, &str, ShotChange, bool); 14] = [
-        ("", "", "", ShotChange::Nothing, true),
-        ("", "direction = [1, 2, 3]", "direction = [3, -2, 1]", ShotChange::View, true),
-        ("", "#88ccff", "#ff0000", ShotChange::Look, true),
-        ("", "at = 140", "at = 150.5", ShotChange::Look, true),
-        ("", "opacity = 0.9", "opacity = 0.4", ShotChange::Look, true),
-        ("", "point = [2, 0, 0]", "point = [4, 0, 0]", ShotChange::Look, true),
-        ("", "normal = [-1, 0, 0]", "normal = [-1, 1, 0]", ShotChange::Look, true),
-        ("", "[shading]", "light = [1, 0, 0]\n[shading]\nspecular = 0.1", ShotChange::Look, true),
-        ("", "#203040", "#ffffff", ShotChange::Look, true),
-        ("", "[shading]", "[shading]\nmodel = \"toon\"", ShotChange::Look, false),
-        ("", "size = [37, 30]", "size = [20, 41]", ShotChange::Look, false),
-        ("", "[shading]", "[sampling]\nkernel = \"bspline\"\n[shading]", ShotChange::Facts, false),
-        (halo, "[[150, 0], [180, 1]]", "[[120, 0], [160, 1]]", ShotChange::Look, true),
-        (object, "move = [0, 2, 0]", "move = [0, 3, 0]", ShotChange::Look, true),
+    let table = "model = \"lighting-function\"\nlight = { world = [1, 2, 3] }\n";
+    let styles = "[style_mipmaps]\n";
+    // Tables after the scene's, a text and what it is changed to, whether pipelines stay.
+    let edits = [
+        ("", "direction = [1, 2, 3]", "direction = [3, -2, 1]", true),
+        ("", "#88ccff", "#ff0000", true),
+        ("", "at = 140", "at = 150.5", true),
+        ("", "opacity = 0.9", "opacity = 0.4", true),
+        ("", "point = [2, 0, 0]", "point = [4, 0, 0]", true),
+        ("", "normal = [-1, 0, 0]", "normal = [-1, 1, 0]", true),
+        ("", "[shading]", "[shading]\nlight = [1, 0, 0]\nspecular = 0.1", true),
+        ("", "#203040", "#ffffff", true),
+        ("", "[shading]", "[shading]\nmodel = \"toon\"", false),
+        ("", "size = [37, 30]", "size = [20, 41]", false),
+        ("", "samples = 1", "samples = \"auto\"", false),
+        ("", "[shading]", "[sampling]\nkernel = \"bspline\"\n[shading]", false),
+        (table, "direction = [1, 2, 3]", "direction = [3, -2, 1]", true),
+        (styles, "direction = [1, 2, 3]", "direction = [1, 2, 3]\nheight = 14", true),
+        (halo, "[[150, 0], [180, 1]]", "[[120, 0], [160, 1]]", true),
+        (object, "move = [0, 2, 0]", "move = [0, 3, 0]", true),
     ];
-    for (tables, from, to, level, stays) in edits {
-        let base = format!("{TURNED}{tables}");
+    for (tables, from, to, stays) in edits {
+        let base = match tables {
+            _ if tables == table => TURNED.replace("[shading]\n", &format!("[shading]\n{table}")),
+            _ if tables == styles => {
+                let nodes = "nodes = [{ at = 0, style = \"glass\", opacity = 0.05 }, { at = 140, style = \"bone\", opacity = 0.9 }]";
+                let kept = |line: &&str| !line.starts_with("kind") && !line.starts_with("[shading]");
+                let line = |line| if str::starts_with(line, "nodes") { nodes } else { line };
+                TURNED.lines().filter(kept).map(line).collect::<Vec<_>>().join("\n") + "\n" + styles
+            }
+            tables => format!("{TURNED}{tables}"),
+        };
         let first = job(&base);
-        // `light` is a key of the top of a scene.
         let changed = base.replacen(from, to, 1);
-        let light = "light = [1, 0, 0]\n";
-        let changed = if changed.contains(light) { format!("{light}{}", changed.replace(light, "")) } else { changed };
+        assert_ne!(changed, base);
         let scene = parse(&changed, "scene.toml".as_ref(), &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
         let second = Job::with_volume(scene, first.volume.clone()).unwrap_or_else(|failures| panic!("{failures}"));
         let mut frames = GpuFrames::new(&first, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
-        let draw = |frames: &mut GpuFrames| frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
-        let before = draw(&mut frames);
-        for (to, from) in [(&second, &before), (&first, &draw(&mut GpuFrames::new(&second, &gpu).unwrap()))] {
+        let draw = |frames: &mut GpuFrames| {
+            frames.show().unwrap_or_else(|failure| panic!("{failure}"));
+            let shown = texels(&gpu, frames.shown().unwrap());
+            (frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0, shown)
+        };
+        let fresh = [&first, &second].map(|job| draw(&mut GpuFrames::new(job, &gpu).unwrap()));
+        assert!(fresh[0].0 != fresh[1].0, "the change is not seen: {changed}");
+        draw(&mut frames);
+        for (job, fresh) in [(&second, &fresh[1]), (&first, &fresh[0])] {
             let compiled = gpu.pipelines();
-            assert_eq!(frames.change(to).unwrap_or_else(|failure| panic!("{failure}")), level, "{changed}");
+            frames.change(job).unwrap_or_else(|failure| panic!("{failure}"));
             assert_eq!(gpu.pipelines() == compiled, stays, "{} pipelines: {changed}", gpu.pipelines() - compiled);
-            let drawn = draw(&mut frames);
-            assert_eq!(drawn, draw(&mut GpuFrames::new(to, &gpu).unwrap()), "{changed}");
-            assert_eq!(drawn == *from, level == ShotChange::Nothing, "the change is not seen: {changed}");
+            assert!(draw(&mut frames) == *fresh, "{changed}");
         }
     }
 }
 
-/// A stopped frame is empty, by rays each alone and with a halo, and the next one is whole.
+/// A frame that is stopped before it begins, or between its passes, has no picture, and the next one is whole.
 #[test]
-fn a_stopped_frame_is_empty() {
+fn a_stopped_frame_has_no_picture() {
     let Some(gpu) = gpu() else { return };
-    for halo in ["", "[[halo]]\nseed.value = [[150, 0], [180, 1]]\n"] {
-        let job = job(&format!("{TURNED}{halo}"));
+    for (table, last) in [("", 0.5), ("[[halo]]\nseed.value = [[150, 0], [180, 1]]\n", 0.0)] {
+        let job = job(&format!("{}{table}", TURNED.replace("samples = 1", "samples = \"auto\"")));
         let mut frames = GpuFrames::new(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
-        let stop = Arc::new(AtomicBool::new(true));
-        frames.stop_by(stop.clone());
-        let mut draw = || frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
-        let channels = draw().layers.remove(0).channels;
-        assert!(channels.iter().flatten().all(|&c| c == 0.0));
-        stop.store(false, Ordering::Relaxed);
-        assert_eq!(draw(), GpuFrames::new(&job, &gpu).unwrap().frame(&|_| ()).unwrap().0);
+        let whole = frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
+        let stop = AtomicBool::new(last == 0.0);
+        let stopped = frames.frame_until(&|share| stop.store(share >= last, Ordering::Relaxed), &stop).unwrap();
+        assert!(stopped.is_none() && stop.into_inner());
+        assert_eq!(frames.frame(&|_| ()).unwrap().0, whole);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::volumeshop::objects::{self, DrawnPart};
 use crate::{CardInputs, GpuError, Precision, ray, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Combination, Cut, HaloSeed, Membership, Part, Role, Shot, placed};
+use drypoint_scene::shot::{Combination, Cut, HaloSeed, Membership, Object, Part, Role, Shot, placed};
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Anatomy;
 
@@ -30,6 +30,11 @@ impl PlacesOfObjects {
     /// The corners of the boxes of their data.
     pub(crate) fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.0.iter().flat_map(|placed| placed.place.grid.world_corners())
+    }
+
+    /// The objects of a shot that are drawn, the background first.
+    pub(crate) fn drawn<'s>(&'s self, shot: &'s Shot) -> impl Iterator<Item = &'s Object> {
+        std::iter::once(shot.background()).chain(self.0.iter().map(|placed| &shot.objects[placed.part + 1]))
     }
 
     pub(crate) fn new(shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {

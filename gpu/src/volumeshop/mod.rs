@@ -10,7 +10,7 @@ use crate::number::BILINEAR;
 use crate::shader::{Constant, Data, Shader};
 use drypoint_scene::lighting::LightingTable;
 use drypoint_scene::shot::{
-    Combination, Cut, Cutaway, Lighting, LightingParams, Material, Membership, SelectionParams, Shot,
+    Combination, Cut, Cutaway, Lighting, LightingParams, Material, Membership, Object, SelectionParams, Shot,
 };
 
 /// The binding of the cells of a lighting table.
@@ -30,9 +30,9 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
     shader.stages.lit.push("shade_by_table");
 }
 
-/// The cells of the lighting tables of a shot, its volume's first, which for light from the world depend on the camera.
-pub(crate) fn lighting_cells(shot: &Shot) -> Vec<Vec<f64>> {
-    let tables = shot.objects.iter().filter_map(|object| match &object.material {
+/// The cells of the lighting tables of objects, which for light from the world depend on the camera.
+pub(crate) fn lighting_cells<'o>(objects: impl Iterator<Item = &'o Object>) -> Vec<Vec<f64>> {
+    let tables = objects.filter_map(|object| match &object.material {
         Material::Regular(lit) => match &lit.lighting {
             Lighting::Function(params) => Some(cells(&params.table)),
             Lighting::Flat | Lighting::Phong(_) | Lighting::Toon(_) => None,

@@ -30,4 +30,5 @@ mod tile_work;
 pub use error::RenderError;
 pub use measure::measure;
 pub use pick::{Picked, VISIBLE};
+pub use prepare::within_planes;
 pub use render::Renderer;

@@ -247,7 +247,10 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Resu
 }
 
 /// Checks that sample planes are told apart all the way ([RAY-1]), and that the picture's samples have an end.
-pub(super) fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
+///
+/// # Errors
+/// Planes that fall together, samples without end.
+pub fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
     let Shot { lattice, view, .. } = shot;
     let planes = lattice.planes(view, grid);
     if planes >= MOST_PLANES {

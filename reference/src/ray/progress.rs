@@ -7,8 +7,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(crate) struct Progress<'p> {
     /// Hears the share of the frame that is done, from any thread.
     pub(crate) hear: &'p (dyn Fn(f64) + Sync),
-    /// What stops the frame.
+    /// The flag that stops the frame.
     pub(crate) stop: &'p AtomicBool,
+    /// Whether the frame was stopped, whatever becomes of the flag.
+    pub(crate) stopped: &'p AtomicBool,
     /// The shares of the frame between which the part lies.
     pub(crate) between: [f64; 2],
 }
@@ -27,7 +29,8 @@ impl Progress<'_> {
 
     /// Whether nothing more is drawn.
     pub(crate) fn is_stopped(self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.stopped.fetch_or(self.stop.load(Ordering::Relaxed), Ordering::Relaxed);
+        self.stopped.load(Ordering::Relaxed)
     }
 
     fn of_frame(self, share: f64) -> f64 {

@@ -23,7 +23,6 @@ use drypoint_scene::inputs::Inputs;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 /// Pixels along the side of a tile, the work of one thread at a time.
@@ -43,8 +42,6 @@ pub struct Renderer<'a> {
     tile: usize,
     band: usize,
     order: Order,
-    /// What stops frames.
-    stop: Arc<AtomicBool>,
 }
 
 /// The order in which samples are visited. Without halos it shows nowhere, neither in the picture nor in the counts; with
@@ -127,19 +124,12 @@ impl<'a> Renderer<'a> {
             tile: TILE,
             band: BAND,
             order,
-            stop: Arc::default(),
         }
     }
 
     /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
     pub fn with_tiles(self, side: usize) -> Self {
         Self { tile: side.clamp(1, 1024), ..self }
-    }
-
-    /// Hands over what stops frames. While it is true nothing more is drawn, and a frame that is being drawn returns
-    /// soon: an unfinished picture.
-    pub fn stop_by(&mut self, stop: Arc<AtomicBool>) {
-        self.stop = stop;
     }
 
     /// Sets about how many rays wait for each other with halos; at least a row of tiles does. It shows nowhere.
@@ -241,7 +231,20 @@ impl<'a> Renderer<'a> {
 
     /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
-        let progress = Progress { hear: progress, stop: &self.stop, between: [0.0, 1.0] };
+        let [stop, stopped] = [false; 2].map(AtomicBool::new);
+        self.drawn(Progress { hear: progress, stop: &stop, stopped: &stopped, between: [0.0, 1.0] })
+    }
+
+    /// Renders a further frame, unless `stop` becomes true before all is drawn: then nothing more is drawn, and there is no
+    /// picture.
+    pub fn again_until(&self, progress: &(dyn Fn(f64) + Sync), stop: &AtomicBool) -> Option<(Picture, Counts)> {
+        let stopped = AtomicBool::new(false);
+        let drawn = self.drawn(Progress { hear: progress, stop, stopped: &stopped, between: [0.0, 1.0] });
+        (!stopped.into_inner()).then_some(drawn)
+    }
+
+    /// Draws a frame, or as much of it as is drawn before it is stopped.
+    fn drawn(&self, progress: Progress<'_>) -> (Picture, Counts) {
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::F32(p) => self.draw(p, &p.object.field, progress),

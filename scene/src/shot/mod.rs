@@ -4,9 +4,9 @@
 //! value. A renderer reads the shot and the data that it names (voxels, labels, styles, pixels behind), and nothing else of a
 //! scene. Quantities that only voxels can tell, such as a quantile of ‖g‖, are named here and measured by the renderer.
 
-mod change;
 mod clipping;
 mod combination;
+mod facts;
 pub mod halo;
 mod lattice;
 mod material;
@@ -23,7 +23,6 @@ pub use crate::tables::{
     HaloSource, HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode,
     Role, SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
 };
-pub use change::ShotChange;
 pub use clipping::{Cap, Clipping};
 pub use combination::{
     Combination, Cutaway, Intersection, IntersectionPaint, MOST_STEPS, Membership, Part, PartFacts, SelectionFacts,
