@@ -154,7 +154,7 @@ fn of_volume(
     }
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.data.background);
-    ray::layers::add(&mut shader, layers);
+    ray::layers::add(&mut shader, layers, shot);
     if has_halos {
         volumetric_halos::add(&mut shader, (shot, is_part), own, (&own_inputs, place), &scales, precision)?;
     }

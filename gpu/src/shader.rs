@@ -91,6 +91,8 @@ pub(crate) struct Stages {
     pub(crate) ends: Vec<&'static str>,
     /// Functions by which layers take in a sample.
     pub(crate) collect: Vec<&'static str>,
+    /// The number of objects whose coverage layers show, from the background on.
+    pub(crate) covering: usize,
     /// When a ray has ended.
     pub(crate) end_ray: Vec<&'static str>,
     /// Expressions for the channels of a pixel, in their order; `mean` is the beauty. Those of one ray stay when the pixel is
@@ -196,6 +198,9 @@ impl Stages {
 
     fn wgsl(&self) -> String {
         let mut text = String::new();
+        if self.covering > 0 {
+            let _ = writeln!(text, "\nconst COVERING = {};", self.covering);
+        }
         self.passed_wgsl(&mut text);
         let mut function =
             |head: &str, lines: &[String], result| write_function(&mut text, head, lines.iter().cloned(), result);

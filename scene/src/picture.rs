@@ -54,10 +54,17 @@ pub enum LayerKind {
     Counts,
     /// The largest intensity of halo n of the scene on the ray, before its profile: `halo0.H` of the first.
     Halo(usize),
+    /// The coverage of object n of the shot: `part0.A` of the first, which is the background. A sample covers a pixel by
+    /// its weight (1 − A)·α(Δ), and each object by its fraction of what the sample shows. The sum over objects is A of the
+    /// samples and the iso-surface; that surface is the background's. Meshes, lines and glows belong to no object.
+    Part(usize),
 }
 
 /// The beginning of the names of halos' layers, before the halo's place in the list.
 const HALO: &str = "halo";
+
+/// The beginning of the names of objects' layers, before the object's place in the list.
+const PART: &str = "part";
 
 impl Serialize for LayerKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -66,7 +73,7 @@ impl Serialize for LayerKind {
 }
 
 impl LayerKind {
-    /// Every layer but those of halos, in the order of the documentation.
+    /// Every layer but those of halos and objects, in the order of the documentation.
     pub const ALL: [Self; 12] = [
         Self::Beauty,
         Self::Z,
@@ -86,6 +93,7 @@ impl LayerKind {
     pub fn name(self) -> Cow<'static, str> {
         Cow::Borrowed(match self {
             Self::Halo(n) => return Cow::Owned(format!("{HALO}{n}")),
+            Self::Part(n) => return Cow::Owned(format!("{PART}{n}")),
             Self::Beauty => "beauty",
             Self::Z => "Z",
             Self::Depth => "depth",
@@ -103,24 +111,26 @@ impl LayerKind {
 
     /// The layer of that name.
     pub fn from_name(name: &str) -> Option<Self> {
-        let of_halo = || {
-            let kind = Self::Halo(name.strip_prefix(HALO)?.parse().ok()?);
+        let numbered = |prefix: &str, kind: fn(usize) -> Self| {
+            let kind = kind(name.strip_prefix(prefix)?.parse().ok()?);
             // Leading zeros and signs make no second name.
             (kind.name() == name).then_some(kind)
         };
-        Self::ALL.into_iter().find(|kind| kind.name() == name).or_else(of_halo)
+        let one = Self::ALL.into_iter().find(|kind| kind.name() == name);
+        one.or_else(|| numbered(HALO, Self::Halo)).or_else(|| numbered(PART, Self::Part))
     }
 
-    /// Whether a pixel of several rays has the mean over all of them, weighted by opacity. Other layers but the beauty
-    /// have one ray's numbers ([RAY-6]).
+    /// Whether a pixel of several rays has the mean over all of them: of objects the plain mean, of other layers that
+    /// weighted by opacity. Layers that are neither means nor the beauty have one ray's numbers ([RAY-6]).
     pub fn is_mean(self) -> bool {
-        matches!(self, Self::Normal | Self::Gradient | Self::Curvature | Self::CurvatureAlongView)
+        matches!(self, Self::Normal | Self::Gradient | Self::Curvature | Self::CurvatureAlongView | Self::Part(_))
     }
 
     /// Full channel names as an EXR file has them.
     pub fn channels(self) -> Vec<Cow<'static, str>> {
         let names: &[&str] = match self {
             Self::Halo(n) => return vec![Cow::Owned(format!("{HALO}{n}.H"))],
+            Self::Part(n) => return vec![Cow::Owned(format!("{PART}{n}.A"))],
             Self::Beauty => &["R", "G", "B", "A"],
             Self::Z => &["Z"],
             Self::Depth => &["depth.FIRST", "depth.HALF", "depth.MEAN"],
@@ -168,7 +178,7 @@ mod tests {
 
     #[test]
     fn layers_have_names_and_channels_of_their_own() {
-        for kind in LayerKind::ALL.into_iter().chain([LayerKind::Halo(0), LayerKind::Halo(12)]) {
+        for kind in LayerKind::ALL.into_iter().chain([LayerKind::Halo(0), LayerKind::Halo(12), LayerKind::Part(7)]) {
             assert_eq!(LayerKind::from_name(&kind.name()), Some(kind));
             assert!(!kind.channels().is_empty());
         }
@@ -176,7 +186,10 @@ mod tests {
             (LayerKind::Halo(3).name(), &LayerKind::Halo(3).channels()[..]),
             ("halo3".into(), &["halo3.H".into()][..])
         );
-        for none in ["halo", "halo01", "halo+1", "halo-1", "halo1.H", "halo99999999999999999999", "Halo0"] {
+        assert_eq!(LayerKind::Part(3).channels(), ["part3.A"]);
+        for none in
+            ["halo", "halo01", "halo+1", "halo-1", "halo1.H", "halo99999999999999999999", "Halo0", "part", "part1.A"]
+        {
             assert_eq!(LayerKind::from_name(none), None, "{none}");
         }
     }

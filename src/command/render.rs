@@ -36,7 +36,8 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// Layers of an EXR, separated by commas: beauty, Z, depth, normal, gradient, curvature, curvature.KV, first,
-    /// first.normal, first.curvature, first.curvature.KV, counts, halo0, halo1, …; sets the default name's suffix to .exr
+    /// first.normal, first.curvature, first.curvature.KV, counts, halo0, halo1, …, part0, part1, …; sets the default name's
+    /// suffix to .exr
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     layers: Vec<String>,
     #[command(flatten)]

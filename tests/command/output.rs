@@ -247,7 +247,7 @@ fn layers_belong_to_an_exr() {
     );
     assert_eq!(
         folder.refused("render scene.toml --layers Z,nomal"),
-        "error: picture.layers[1] cannot be \"nomal\"\n  at: --layers Z,nomal\n  try: write \"normal\"; expected is \"beauty\", \"Z\", \"depth\", \"normal\", \"gradient\", \"curvature\", \"curvature.KV\", \"first\", \"first.normal\", \"first.curvature\", \"first.curvature.KV\" or \"counts\", or \"haloN\", N the place of one of [[halo]], from 0\n"
+        "error: picture.layers[1] cannot be \"nomal\"\n  at: --layers Z,nomal\n  try: write \"normal\"; expected is \"beauty\", \"Z\", \"depth\", \"normal\", \"gradient\", \"curvature\", \"curvature.KV\", \"first\", \"first.normal\", \"first.curvature\", \"first.curvature.KV\" or \"counts\", or \"haloN\", N the place of one of [[halo]], from 0, or \"partN\", N the place of a part, 0 the background\n"
     );
     folder.good("render scene.toml --layers beauty,Z,curvature,counts -o all.exr");
     let image = read_image(&folder.path("all.exr")).unwrap();

@@ -79,6 +79,10 @@ fn what_leads_nowhere_is_refused() {
             "--size 99999999999x99999999999",
             "error: picture.size cannot be [99999999999, 99999999999]\n  at: --size 99999999999x99999999999\n  try: write a size [width, height], each a whole number from 1 to 1048576, at most 1073741824 pixels in all\n",
         ),
+        (
+            "--layers part1",
+            "error: there is no part1: the scene has 1 part, counted from 0\n  at: --layers part1\n  try: there is part0 (background)\n",
+        ),
         ("--layers halo0", "error: there is no halo \"halo0\"\n  at: --layers halo0\n  try: there is no halo at all\n"),
         (
             "--preset stlye",

@@ -331,7 +331,7 @@ pub(crate) fn largest_difference(a: &Shown, b: &Shown) -> f64 {
 }
 
 /// Every layer beside the beauty that can stand with the others in one file.
-pub(crate) const LAYERS: [LayerKind; 9] = [
+pub(crate) const LAYERS: [LayerKind; 10] = [
     LayerKind::Z,
     LayerKind::Depth,
     LayerKind::Normal,
@@ -341,4 +341,5 @@ pub(crate) const LAYERS: [LayerKind; 9] = [
     LayerKind::FirstNormal,
     LayerKind::FirstCurvature,
     LayerKind::Counts,
+    LayerKind::Part(0),
 ];

@@ -244,7 +244,10 @@ fn buffers_are_those_that_are_called_for() {
     assert_eq!(names(&regression), ["picture", "volume"]);
     assert_eq!(names(&regression.with(|s| s.shading = Some(Shading::default()))), ["picture", "regression", "volume"]);
     assert_eq!(counts(&regular()).bytes["volume"], 8000 * 8);
-    assert_eq!(counts(&regular().layers(&LAYERS)).bytes["picture"], 256 * 8 * (4 + 1 + 3 + 3 + 3 + 3 + 1 + 3 + 3 + 1));
+    assert_eq!(
+        counts(&regular().layers(&LAYERS)).bytes["picture"],
+        256 * 8 * (4 + 1 + 3 + 3 + 3 + 3 + 1 + 3 + 3 + 1 + 1)
+    );
 }
 
 /// A volume of u8 is read as it is stored.

@@ -68,6 +68,7 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
                     | LayerKind::Gradient
                     | LayerKind::Curvature
                     | LayerKind::CurvatureAlongView
+                    | LayerKind::Part(_)
             );
             let [one, nine] = [&one, &nine].map(|shown| &shown.picture.layer(layer.kind).unwrap().channels);
             for ((auto, one), nine) in layer.channels.iter().zip(one).zip(nine) {

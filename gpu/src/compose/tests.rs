@@ -86,7 +86,7 @@ const CHOICES: &[Choice] = &[
         "layers",
         &[
             &[],
-            &[("picture", "layers = [\"counts\", \"Z\"]")],
+            &[("picture", "layers = [\"counts\", \"Z\", \"part0\"]")],
             &[("picture", "layers = [\"beauty\", \"normal\", \"depth\", \"first\", \"first.normal\", \"gradient\"]")],
             &[("picture", "layers = [\"beauty\", \"curvature\", \"first.curvature\"]")],
             &[("picture", "layers = [\"beauty\", \"curvature.KV\", \"first.curvature.KV\"]")],

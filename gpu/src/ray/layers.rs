@@ -7,6 +7,7 @@ use crate::shader::HaloStages;
 use crate::shader::{Channel, Shader};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
+use drypoint_scene::shot::Shot;
 
 /// From here on a depth stands for none.
 const NOWHERE: f64 = 1e37;
@@ -36,8 +37,25 @@ pub(crate) const KEPT: [&str; 21] = [
     "ray_sums.curvature.z",
 ];
 
-/// Adds the channels of layers, and the sums that they need.
-pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind]) {
+/// Adds the channels of layers of a shot, and the sums that they need.
+pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind], shot: &Shot) {
+    let ends = layers.iter().map(|layer| if let LayerKind::Part(n) = layer { n + 1 } else { 0 });
+    shader.stages.covering = ends.max().unwrap_or(0);
+    if shader.stages.covering > 0 {
+        shader.add(&[module!("layers_objects")]);
+        shader.stages.begin_ray.push("begin_coverage");
+        shader.stages.end_ray.push("pool_coverage");
+        // Objects say what samples show where there are some.
+        if shot.combination.is_none() {
+            shader.add(&[module!("layers_background")]);
+        }
+        if shot.meshes.is_empty() {
+            shader.stages.collect.push("collect_coverage");
+        } else {
+            shader.add(&[module!("layers_without_meshes")]);
+            shader.stages.collect.push("collect_coverage_without_meshes");
+        }
+    }
     if layers.iter().any(|&layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts)) {
         shader.add(&[EYE_NORMAL, module!("layers")]);
         shader.stages.begin_ray.push("begin_sums");
@@ -77,6 +95,7 @@ fn expressions(layer: LayerKind) -> Vec<String> {
         LayerKind::FirstCurvatureAlongView => one("pixel_sums.first.curvature.z"),
         LayerKind::Counts => one("real(samples_of_pixel)"),
         LayerKind::Halo(halo) => vec![HaloStages::intensity(halo)],
+        LayerKind::Part(object) => vec![format!("pixel_coverage[{object}] / rays_of_pixel")],
     }
 }
 

@@ -13,7 +13,7 @@ pub(crate) struct Kept {
 
 impl Kept {
     /// A number.
-    pub(crate) fn real(name: &'static str) -> Self {
+    pub(crate) fn real(name: impl Into<Cow<'static, str>>) -> Self {
         Self { name: name.into(), is_whole: false }
     }
 

@@ -57,7 +57,7 @@ fn together(k: i32) -> Together {
     keep_found(0, background_set(k, shares.background), true);
     find_parts(k);
     // Eqs. 6 and 7: intersections, taken out of the sets that meet.
-    meet_objects();
+    meet_objects(k);
     // Eqs. 4 and 5.
     let shaded = combined();
     largest_mu = found[0].mu;

@@ -3,6 +3,8 @@
 
 // The memberships that intersections take out of each object.
 var<private> taken_out: array<real, OBJECTS>;
+// The unshaded opacities of a selection and of the object that it met last.
+var<private> met_opacities: vec2<real>;
 
 // The colour and the membership of intersection i, of selection s with object o.
 fn meeting(i: i32, s: i32, o: i32, preset: i32, swaps: bool) -> Shaded {
@@ -19,7 +21,8 @@ fn meeting(i: i32, s: i32, o: i32, preset: i32, swaps: bool) -> Shaded {
     var other = unlit_object(o, a);
     other.alpha *= found[o].faded;
     // The opacity, and the colour.
-    var alpha = vec2<real>(own.alpha, other.alpha);
+    met_opacities = vec2<real>(own.alpha, other.alpha);
+    var alpha = met_opacities;
     if (swaps) {
         alpha = alpha.yx;
     }

@@ -190,7 +190,7 @@ fn seeds_together(text: &mut String, halos: usize, parts: &[DrawnPart]) {
     write_function(text, "sow_objects(k: i32)", calls, None);
 }
 
-/// Writes the calls that find intersections, and what they read of objects.
+/// Writes the calls that find intersections, and what they read of objects; then those that find fractions for layers.
 fn meetings(
     text: &mut String,
     shader: &mut Shader,
@@ -201,6 +201,7 @@ fn meetings(
 ) {
     let scales_of = |part: usize| parts.iter().find(|drawn| drawn.part == part).map(|drawn| drawn.scales);
     let (mut calls, mut paints, mut tables) = (Vec::new(), Vec::new(), Vec::new());
+    let covers = shader.stages.covering > 0;
     for (i, intersection) in combination.intersections.iter().enumerate() {
         let Intersection { selection, ghost, opacity, swap, .. } = intersection;
         let of_other = ghost.map_or(Some(*scales), scales_of);
@@ -216,6 +217,9 @@ fn meetings(
         };
         let [selection, other] = [selection + 1, ghost.map_or(0, |ghost| ghost + 1)];
         calls.push(format!("meet({i}, {selection}, {other}, {preset}, {swap});"));
+        if covers {
+            calls.push(format!("deal_meeting({selection}, {other}, sets[OBJECTS + {i}].mu, met_opacities);"));
+        }
         let scales = [&of_other, &of_selection];
         let color = paint(shader, (i, intersection), pictures.get(i).copied().flatten(), scales, &mut tables);
         paints.push((i, under_dabs(shader, color, intersection, scales, &mut tables)));
@@ -242,7 +246,12 @@ fn meetings(
             write_switch(text, head, "object", each, of_background);
         }
     }
-    write_function(text, "meet_objects()", calls, None);
+    if covers {
+        shader.add(&[module!("sets_fractions")]);
+        shader.stages.begin_ray.push("forget_fractions");
+        calls.push("find_fractions(k);".to_owned());
+    }
+    write_function(text, "meet_objects(k: i32)", calls, None);
 }
 
 /// An expression for the unlit colour and opacity of an intersection. `scales` are those of the value at p and of that at T p.

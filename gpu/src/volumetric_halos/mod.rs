@@ -295,6 +295,7 @@ fn add_stages(
     }
     if stages.collect.contains(&"collect_layers") {
         kept.extend(layers::KEPT.map(Kept::real));
+        kept.extend((0..stages.covering).map(|object| Kept::real(format!("ray_coverage[{object}]"))));
     }
     let watched = |layer: &LayerKind| if let LayerKind::Halo(halo) = layer { Some(*halo) } else { None };
     for stage in stages.measured_first.iter_mut().chain(&mut stages.measured).chain(&mut measured) {

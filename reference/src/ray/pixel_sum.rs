@@ -49,8 +49,8 @@ impl PixelSum {
         self.beauty.map(|sum| sum / f64::from(self.rays))
     }
 
-    /// Appends the channels of layers: of the beauty the mean; of the layers that are means themselves the mean over all
-    /// samples of the pixel; of the others the first ray's.
+    /// Appends the channels of layers: of the beauty and of objects the mean; of the other layers that are means themselves
+    /// the mean over all samples of the pixel; of the others the first ray's.
     pub(super) fn append<R: Real>(&self, prepared: &Prepared<'_, R>, layers: &[LayerKind], pixels: &mut Vec<f64>) {
         // A pixel has at least one ray, and a refined one no layers of its first.
         let (first, samples) = self.first.as_ref().map_or((None, 0), |(sums, samples)| (sums.as_deref(), *samples));
@@ -64,6 +64,8 @@ impl PixelSum {
                 pixels.push(
                     place.and_then(|place| self.intensities.get(place)).map_or(0.0, |sum| sum / f64::from(self.rays)),
                 );
+            } else if let LayerKind::Part(object) = kind {
+                pixels.push(all.coverage(object) / f64::from(self.rays));
             } else {
                 let sums = if kind.is_mean() { all } else { first };
                 sums.channels(kind, samples, prepared.object.field.scale_exponent(), pixels);

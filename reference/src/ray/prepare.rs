@@ -2,6 +2,7 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
+use super::composite::covering_objects;
 use super::error::RenderError;
 use super::lattice::{MOST_ACROSS, MOST_SAMPLES, samples_in};
 use super::prepared::Prepared;
@@ -91,6 +92,7 @@ pub(super) fn prepare<'a, R: Real>(
         stop_at: R::from_f64(shot.stop_at),
         encode,
         collects,
+        covering: covering_objects(&shot.layers),
         layers: shot.layers.clone(),
         eye_axes: EyeAxes::new(&shot.view),
         rays_across: shot.rays_across,

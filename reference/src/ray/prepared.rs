@@ -38,6 +38,8 @@ pub(super) struct Prepared<'v, R> {
     pub(super) encode: bool,
     /// Whether a layer beyond the beauty is asked for.
     pub(super) collects: bool,
+    /// The number of objects whose coverage layers show: the background, and so many parts but one.
+    pub(super) covering: usize,
     pub(super) layers: Vec<LayerKind>,
     pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.

@@ -3,7 +3,7 @@
 //! The first picture has one ray a pixel. Which pixels are refined follows from it alone, so neither threads nor tiles
 //! show. The ray of the first picture is the middle one of the nine of a refined pixel and is not cast again.
 
-use super::composite::Sums;
+use super::composite::{Sums, covering_objects};
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
@@ -26,8 +26,13 @@ const MIDDLE: usize = ACROSS * ACROSS / 2;
 /// Bytes a pixel that refinement takes beside the picture, at the most.
 pub(super) fn bytes_a_pixel(layers: &[LayerKind]) -> usize {
     let beauty = if layers.contains(&LayerKind::Beauty) { 0 } else { size_of::<Rgba>() };
-    let sums = if keeps_sums(layers) { size_of::<Option<Box<Sums>>>() + size_of::<Sums>() } else { 0 };
+    let sums = if keeps_sums(layers) { size_of::<Option<Box<Sums>>>() + bytes_of_sums(layers) } else { 0 };
     size_of::<bool>() + beauty + sums
+}
+
+/// Bytes of the sums of a ray.
+fn bytes_of_sums(layers: &[LayerKind]) -> usize {
+    size_of::<Sums>() + covering_objects(layers) * size_of::<f64>()
 }
 
 /// Draws a picture whose pixels are refined where neighbours differ by more than `contrast`, in tiles of a side in pixels.
@@ -51,7 +56,7 @@ pub(super) fn draw_refined<R: Real>(
     // The pixels at edges.
     let beauty = picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels);
     let refined = pixels_at_edges(beauty, prepared.view.size, contrast);
-    let kept = sums.iter().flatten().count() * size_of::<Sums>() + size_of_val(sums.as_slice());
+    let kept = sums.iter().flatten().count() * bytes_of_sums(&layers) + size_of_val(sums.as_slice());
     let own_beauty = if layers.len() > prepared.layers.len() { refined.len() * size_of::<Rgba>() } else { 0 };
     counts.bytes.insert("refinement".into(), (refined.len() + kept + own_beauty) as u64);
     counts.refined_pixels = refined.iter().filter(|&&is| is).count() as u64;

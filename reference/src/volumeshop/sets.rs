@@ -49,6 +49,31 @@ pub fn combined<R: Real>(fuzzy: Fuzzy, sets: impl Iterator<Item = ObjectSet<R>> 
     (sum.map(|c| c / weight), opacity)
 }
 
+/// The fraction w_N of each object in what sets show together; their sum is 1. `sets` are those of the objects, then
+/// intersections; `met` are the places and the unshaded opacities of the two objects of each intersection.
+///
+/// By eq. 4 the colour is Σcμ/Σμ, so a set has the fraction μ/Σμ of what is shown, and so of its opacity. An intersection
+/// belongs to both of its objects. The mean of their colours is (α₁c₁ + α₂c₂)/(α₁ + α₂), so the first has α₁/(α₁ + α₂) of
+/// it; that holds for intersections of other colours too. Two transparent objects have half of it each. Together
+/// w_N = (μ_N + Σμ_{N∩M}·α_N/(α_N + α_M))/Σμ.
+///
+/// Opacity is not attributed by the order of the sets in a union, in which no set comes first.
+pub fn fractions<R: Real>(sets: &[ObjectSet<R>], met: &[[(usize, R); 2]], fractions: &mut Vec<f64>) {
+    let (of_objects, intersections) = sets.split_at(sets.len() - met.len());
+    fractions.clear();
+    fractions.extend(of_objects.iter().map(|set| set.mu.to_f64()));
+    for (set, [(first, alpha_1), (second, alpha_2)]) in intersections.iter().zip(met) {
+        let sum = *alpha_1 + *alpha_2;
+        let of_first = if sum > R::ZERO { set.mu * (*alpha_1 / sum) } else { set.mu * R::from_f64(0.5) };
+        fractions[*first] += of_first.to_f64();
+        fractions[*second] += (set.mu - of_first).to_f64();
+    }
+    let sum: f64 = fractions.iter().sum();
+    if sum > 0.0 {
+        fractions.iter_mut().for_each(|fraction| *fraction /= sum);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,6 +92,29 @@ mod tests {
         // ½ + ¼ = ¾ together, then ¾ + ¼ − 3/16.
         assert_eq!(combined(Fuzzy::Product, sets.into_iter()), ([0.625, 0.0, 1.0], 0.8125));
         assert_eq!(combined(Fuzzy::Zadeh, [set(1.0, 0.0, true)].into_iter()), ([0.0; 3], 0.0));
+    }
+
+    /// Opacities 0.2 and 0.6 of two objects are a quarter and three quarters of what is seen.
+    #[test]
+    fn fractions_by_hand() {
+        let (a, b, mut out) = (set(1.0, 0.2, true), set(0.0, 0.6, false), Vec::new());
+        let near = |found: &[f64], expected: &[f64]| {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(found.len() == expected.len() && off < 1e-15, "{found:?}, not {expected:?}");
+        };
+        fractions(&[a, b], &[], &mut out);
+        near(&out, &[0.25, 0.75]);
+        // An intersection of μ 0.2, whose objects have opacities 0.6 and 0.2 there: 0.15 and 0.05 of a sum of 1.
+        let meeting = set(0.5, 0.2, false);
+        fractions(&[a, b, meeting], &[[(1, 0.6), (0, 0.2)]], &mut out);
+        near(&out, &[0.25, 0.75]);
+        fractions(&[a, b, meeting], &[[(1, 0.0), (0, 0.2)]], &mut out);
+        near(&out, &[0.4, 0.6]);
+        // A colour of its own where both are transparent.
+        fractions(&[ObjectSet::NONE, ObjectSet::NONE, meeting], &[[(1, 0.0), (0, 0.0)]], &mut out);
+        near(&out, &[0.5, 0.5]);
+        fractions(&[ObjectSet::<f64>::NONE; 2], &[], &mut out);
+        near(&out, &[0.0, 0.0]);
     }
 
     #[test]

@@ -62,6 +62,8 @@ pub enum Membership {
 pub struct Part {
     /// The place of its `[[object]]` in the scene, and of its selection in [`Combination::selections`].
     pub object: usize,
+    /// The name of its `[[object]]`.
+    pub name: String,
     /// Whether it is the selection or the ghost.
     pub role: Role,
     /// The planes that cut it, in the index space of its data where it is drawn.
@@ -180,7 +182,8 @@ impl Shot {
             let motion = described[object].motion.filter(|_| role == Role::Selection);
             let clipping = Clipping::of_part(facts.scene, main.grid, &placed(facts.grid, motion)?);
             let seeds = PartSeeds::new(facts.scene, facts.plan, main.grid, &drawn.function)?;
-            parts.push(Part { object, role, clipping, seeds });
+            let name = scene.objects[object].name.clone();
+            parts.push(Part { object, name, role, clipping, seeds });
             self.objects.push(drawn);
         }
         let place = |object: usize, role: Role| places.iter().position(|&part| part == (object, role));

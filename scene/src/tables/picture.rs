@@ -190,16 +190,18 @@ const LAYER: Choice<LayerKind> = Choice {
     later: &[],
 };
 
-/// A layer by its name; that of a halo has the halo's place in the list, from 0.
+/// A layer by its name; that of a halo or an object has its place in the list, from 0.
 struct LayerName;
 
 impl Shape for LayerName {
     fn expected(&self) -> String {
-        format!("{}, or \"haloN\", N the place of one of [[halo]], from 0", LAYER.expected())
+        let of_halos = "or \"haloN\", N the place of one of [[halo]], from 0";
+        let of_objects = "or \"partN\", N the place of a part, 0 the background";
+        format!("{}, {of_halos}, {of_objects}", LAYER.expected())
     }
 
     fn schema(&self) -> Json {
-        json!({ "anyOf": [LAYER.schema(), { "type": "string", "pattern": "^halo(0|[1-9][0-9]*)$" }] })
+        json!({ "anyOf": [LAYER.schema(), { "type": "string", "pattern": "^(halo|part)(0|[1-9][0-9]*)$" }] })
     }
 }
 
@@ -208,10 +210,12 @@ impl Kind for LayerName {
 
     fn read(&self, item: &Item, check: &mut Check) -> Option<LayerKind> {
         let Some(name) = item.text() else { return check.wrong(item, self.expected()) };
-        // "halo0.H" is the name of the channel.
-        let nearest = || match name.strip_suffix(".H").and_then(LayerKind::from_name) {
+        // "halo0.H" and "part0.A" are names of channels.
+        let of_channel = name.strip_suffix(".H").or_else(|| name.strip_suffix(".A")).and_then(LayerKind::from_name);
+        let names = LAYER.options.iter().map(|option| option.name).chain(["halo0", "part0"]);
+        let nearest = || match of_channel {
             Some(layer) => Some(layer.name().into_owned()),
-            None => nearest(name, LAYER.options.iter().map(|option| option.name).chain(["halo0"])).map(Into::into),
+            None => nearest(name, names).map(Into::into),
         };
         LayerKind::from_name(name).or_else(|| check.wrong_name(item, self.expected(), nearest()))
     }

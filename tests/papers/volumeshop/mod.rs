@@ -2,6 +2,7 @@
 
 mod by_hand;
 mod counts;
+mod coverage;
 mod cutaways;
 mod halos;
 mod identity;

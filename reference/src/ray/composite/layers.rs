@@ -20,8 +20,14 @@ pub(crate) struct LayerSample {
     pub(crate) curvature: [f64; 3],
 }
 
+/// The number of objects whose coverage layers show: up to the last that one of them names.
+pub(crate) fn covering_objects(layers: &[LayerKind]) -> usize {
+    let end = |layer: &LayerKind| if let LayerKind::Part(n) = layer { n + 1 } else { 0 };
+    layers.iter().map(end).max().unwrap_or(0)
+}
+
 /// Sums along one ray.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Sums {
     weight: f64,
     first: Option<LayerSample>,
@@ -30,6 +36,8 @@ pub(crate) struct Sums {
     normal: [f64; 3],
     gradient: [f64; 3],
     curvature: [f64; 3],
+    /// Σw·w_N of each object that layers show; those after its end are 0.
+    coverage: Vec<f64>,
 }
 
 impl Sums {
@@ -44,11 +52,12 @@ impl Sums {
             normal: none,
             gradient: none,
             curvature: none,
+            coverage: Vec::new(),
         }
     }
 
-    /// Adds a sample with α > 0; `opacity` is A with this sample included.
-    pub(crate) fn add(&mut self, sample: &LayerSample, opacity: f64) {
+    /// Adds a sample with α > 0; `opacity` is A with this sample included, `fractions` the w_N of what it shows.
+    pub(crate) fn add(&mut self, sample: &LayerSample, opacity: f64, fractions: impl ExactSizeIterator<Item = f64>) {
         self.weight += sample.weight;
         self.first.get_or_insert(*sample);
         if self.half == f64::INFINITY && opacity >= 0.5 {
@@ -60,6 +69,18 @@ impl Sums {
             self.gradient[axis] += sample.weight * sample.gradient[axis];
             self.curvature[axis] += sample.weight * sample.curvature[axis];
         }
+        self.cover(fractions.map(|fraction| sample.weight * fraction));
+    }
+
+    /// Adds to the coverage of the first objects.
+    fn cover(&mut self, each: impl ExactSizeIterator<Item = f64>) {
+        self.coverage.resize(self.coverage.len().max(each.len()), 0.0);
+        self.coverage.iter_mut().zip(each).for_each(|(sum, w)| *sum += w);
+    }
+
+    /// Σw·w_N of object N.
+    pub(crate) fn coverage(&self, object: usize) -> f64 {
+        self.coverage.get(object).copied().unwrap_or(0.0)
     }
 
     /// Adds another ray of the same pixel to the means ([RAY-6]): they are then those over the samples of both, so a ray
@@ -71,6 +92,7 @@ impl Sums {
             self.gradient[axis] += other.gradient[axis];
             self.curvature[axis] += other.curvature[axis];
         }
+        self.cover(other.coverage.iter().copied());
     }
 
     /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
@@ -98,8 +120,8 @@ impl Sums {
             LayerKind::FirstCurvature => out.extend(first.curvature),
             LayerKind::FirstCurvatureAlongView => out.push(first.curvature[2]),
             LayerKind::Counts => out.push(samples as f64),
-            // It comes with the ray.
-            LayerKind::Halo(_) => {}
+            // They are sums over the rays of a pixel.
+            LayerKind::Halo(_) | LayerKind::Part(_) => {}
         }
     }
 }
@@ -122,8 +144,9 @@ mod tests {
             gradient,
             ..LayerSample::default()
         };
-        sums.add(&near, 0.25);
-        sums.add(&far, 0.75);
+        sums.add(&near, 0.25, [1.0].into_iter());
+        sums.add(&far, 0.75, [0.25, 0.75].into_iter());
+        assert_eq!([0, 1, 2].map(|object| sums.coverage(object)), [0.375, 0.375, 0.0]);
         let channels = |kind| {
             let mut out = Vec::new();
             sums.channels(kind, 3, 2, &mut out);

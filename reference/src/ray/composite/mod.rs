@@ -17,7 +17,7 @@ mod selection_ray;
 mod waiting_tile;
 
 pub(super) use cast::Cast;
-pub(super) use layers::Sums;
+pub(super) use layers::{Sums, covering_objects};
 pub(super) use part_ray::depth_of_part;
 pub(super) use path::Step;
 pub(super) use ray_state::RayState;

@@ -9,7 +9,7 @@ use crate::ray::prepared::Prepared;
 use crate::ray::prepared_combination::{PreparedCombination, PreparedIntersection, PreparedPart, PreparedSelection};
 use crate::ray::sample::{Sample, SampleAttributes};
 use crate::volumeshop::far_side::through_box;
-use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersections};
+use crate::volumeshop::{ObjectSet, Shares, combined, fuzzy, ghosting, intersections, sets};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, IntersectionPaint};
 use smallvec::{SmallVec, smallvec};
@@ -35,6 +35,8 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
     cut_ends: Vec<i64>,
     /// Working memory: what was found of each part at a sample.
     found: Vec<Option<FoundPart<R>>>,
+    /// The fractions w_N of the background and the parts at the last sample; none if no layer shows them.
+    fractions: Vec<f64>,
 }
 
 /// Colour and opacity of all objects at a sample, and the set that the layers read.
@@ -68,10 +70,10 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let part = |part: &'p PreparedPart<'v, R>| PartRay::new(part, &selections[part.selection], prepared, &pixel);
         let parts: Vec<_> = combination.parts.iter().map(part).collect();
         let found = vec![None; parts.len()];
-        let cut_ends = Vec::new();
+        let (cut_ends, fractions) = (Vec::new(), Vec::new());
         let background = background.collect();
         let behind = evaluator(&prepared.object, prepared, &pixel);
-        let mut ray = Self { combination, selections, parts, behind, background, inside, cut_ends, found };
+        let mut ray = Self { combination, selections, parts, behind, background, inside, cut_ends, found, fractions };
         ray.cut_ends = (0..combination.cutaways.len()).map(|i| ray.cut_end(i, prepared, point, counts)).collect();
         let takes = |s: &SelectionRay| s.here.range[0] <= s.here.range[1];
         let is_met = ray.parts.iter().any(|part| part.range[0] <= part.range[1])
@@ -126,6 +128,11 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         parts.into_iter().filter(|[first, last]| first <= last)
     }
 
+    /// The fractions of the background and the parts in what the sets at the last sample show; empty if no layer asks.
+    pub(super) fn fractions(&self) -> &[f64] {
+        &self.fractions
+    }
+
     /// The sets at sample k together.
     #[inline(never)]
     pub(super) fn together(&mut self, k: i64, prepared: &Prepared<'_, R>, counts: &mut Counts) -> Option<Together<R>> {
@@ -165,6 +172,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
 
         // Eqs. 6 and 7: intersections, taken out of the sets that meet.
         let mut sets: SmallVec<[ObjectSet<R>; INLINE]> = SmallVec::new();
+        let mut met: SmallVec<[[(usize, R); 2]; INLINE]> = SmallVec::new();
         let set = |found: &FoundPart<R>, shares| ObjectSet { rgb: found.rgb, mu: found.mu, shares };
         sets.push(of_background.as_ref().map_or(ObjectSet::NONE, |found| set(found, true)));
         for (part, found) in self.parts.iter().zip(&self.found) {
@@ -175,18 +183,22 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             let mut taken: SmallVec<[R; INLINE]> = smallvec![R::ZERO; self.parts.len()];
             for intersection in &combination.intersections {
                 let meeting = self.meeting(intersection, of_background.as_ref(), counts);
-                let Some(meeting) = meeting.filter(|set| set.mu > R::ZERO) else { continue };
+                let Some((meeting, opacities)) = meeting.filter(|(set, _)| set.mu > R::ZERO) else { continue };
                 let of_selection = &mut taken[intersection.params.selection];
                 *of_selection = fuzzy::union(fuzzy, *of_selection, meeting.mu);
                 let other = intersection.params.ghost.map_or(0, |ghost| 1 + ghost);
                 sets[other].without(fuzzy, meeting.mu);
                 sets.push(meeting);
+                met.push([(1 + intersection.params.selection, opacities[0]), (other, opacities[1])]);
             }
             for (set, taken) in sets[1..].iter_mut().zip(taken).filter(|(_, taken)| *taken > R::ZERO) {
                 set.without(fuzzy, taken);
             }
         }
         let (rgb, alpha) = combined(fuzzy, sets.iter().copied());
+        if prepared.covering > 0 {
+            sets::fractions(&sets, &met, &mut self.fractions);
+        }
         Some(Together { rgb, alpha, largest })
     }
 
@@ -233,7 +245,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     /// Its size in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let of_ranges = size_of_val(self.background.as_slice()) + size_of_val(self.cut_ends.as_slice());
-        Self::most_bytes(self.combination) + of_ranges as u64
+        Self::most_bytes(self.combination) + (of_ranges + size_of_val(self.fractions.as_slice())) as u64
     }
 
     /// Bytes of the objects on a ray that meets some, without the ranges of the background.
@@ -263,13 +275,13 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         largest.map(|(part, found)| Largest { part, sample: found.sample, attributes: found.attributes })
     }
 
-    /// The alternative set where a selection meets something (eq. 7).
+    /// The alternative set where a selection meets something (eq. 7), and the unshaded opacities of both.
     fn meeting(
         &mut self,
         intersection: &PreparedIntersection<'_>,
         of_background: Option<&FoundPart<R>>,
         counts: &mut Counts,
-    ) -> Option<ObjectSet<R>> {
+    ) -> Option<(ObjectSet<R>, [R; 2])> {
         let (params, fuzzy) = (&intersection.params, self.combination.fuzzy);
         let selection = self.found[params.selection]?;
         let other = params.ghost.map_or(of_background.copied(), |ghost| self.found[ghost])?;
@@ -317,7 +329,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             (false, None) => self.behind.object.shader.light((rgb, alpha), &attributes, &self.behind.dirs),
         };
         let both = fuzzy::intersection(fuzzy, other.weight, selection.weight);
-        Some(ObjectSet { rgb, mu: fuzzy::intersection(fuzzy, both, alpha), shares: false })
+        let set = ObjectSet { rgb, mu: fuzzy::intersection(fuzzy, both, alpha), shares: false };
+        Some((set, [of_selection.1, of_other.1]))
     }
 
     /// The first sample that a cutaway leaves: those before it lie before d ([VS-7]).

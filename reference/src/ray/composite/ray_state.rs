@@ -21,6 +21,9 @@ use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragment;
 
+/// The fractions of objects in what the background alone shows.
+const OF_BACKGROUND: &[f64] = &[1.0];
+
 /// The most values that are computed at once.
 const MOST_AT_ONCE: usize = 8;
 
@@ -180,11 +183,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let rgb = tinted(self.in_blend_space(rgb), tint);
         self.front.accumulator.end(rgb);
         if prepared.collects {
-            self.add_to_layers(R::ONE, hit.t, surface.roots.iso(), &attributes);
+            self.add_to_layers(R::ONE, hit.t, surface.roots.iso(), &attributes, OF_BACKGROUND);
         }
     }
 
-    /// Composites a mesh, of opacity 1, at its own depth. It has no value, gradient or curvature: in layers they are 0.
+    /// Composites a mesh, of opacity 1, at its own depth. It has no value, gradient or curvature: in layers they are 0. It
+    /// belongs to no object.
     #[inline(never)]
     fn meet_mesh(&mut self, hit: &MeshHit, tint: Option<&Tint>) {
         let prepared = self.prepared;
@@ -193,7 +197,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.front.accumulator.end(tinted(self.in_blend_space(rgb), tint));
         if prepared.collects {
             let attributes = SampleAttributes { normal, ..SampleAttributes::neutral() };
-            self.add_to_layers(R::ONE, hit.t, 0.0, &attributes);
+            self.add_to_layers(R::ONE, hit.t, 0.0, &attributes, &[]);
         }
     }
 
@@ -274,10 +278,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
         let exponent = self.prepared.object.field.scale_exponent();
         match objects.for_layers(largest, self.sums.is_none(), exponent, counts) {
-            None => self.collect(largest.sample, corrected, largest.attributes, counts),
+            None => self.collect(largest.sample, corrected, largest.attributes, objects.fractions(), counts),
             Some(attributes) => {
                 let (depth, value) = (self.evaluator.ray.depth(k).to_f64(), largest.sample.s.to_f64());
-                self.add_to_layers(corrected, depth, value, &attributes);
+                self.add_to_layers(corrected, depth, value, &attributes, objects.fractions());
             }
         }
     }
@@ -410,13 +414,20 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let rgb = if N::MORE { tinted(self.in_blend_space(rgb), tint) } else { rgb };
         front.accumulator.over(rgb, front.corrected[1]);
         if N::MORE && prepared.collects && alpha > R::ZERO {
-            self.collect(sample, front.corrected[1], attributes, counts);
+            self.collect(sample, front.corrected[1], attributes, OF_BACKGROUND, counts);
         }
     }
 
     /// Adds a sample with α > 0 to the layers, by its α(Δ).
     #[inline(never)]
-    fn collect(&mut self, sample: Sample<R>, alpha: R, attributes: SampleAttributes<R>, counts: &mut Counts) {
+    fn collect(
+        &mut self,
+        sample: Sample<R>,
+        alpha: R,
+        attributes: SampleAttributes<R>,
+        fractions: &[f64],
+        counts: &mut Counts,
+    ) {
         let mut attributes = attributes;
         if let (Some(first), true) = (self.prepared.object.first, self.sums.is_none()) {
             attributes = self.evaluator.evaluate(sample, first, attributes, counts);
@@ -425,11 +436,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         if let Some(cut) = self.evaluator.cut_at(sample.k) {
             attributes = cut.attributes(attributes);
         }
-        self.add_to_layers(alpha, self.evaluator.ray.depth(sample.k).to_f64(), sample.s.to_f64(), &attributes);
+        let depth = self.evaluator.ray.depth(sample.k).to_f64();
+        self.add_to_layers(alpha, depth, sample.s.to_f64(), &attributes, fractions);
     }
 
-    /// Adds a value at a depth to the layers, by its α(Δ). There A is the opacity of samples alone ([IO-6]).
-    fn add_to_layers(&mut self, alpha: R, depth: f64, value: f64, attributes: &SampleAttributes<R>) {
+    /// Adds a value at a depth to the layers, by its α(Δ). There A is the opacity of samples alone ([IO-6]). `fractions`
+    /// are those of the objects in what is shown, from the background on.
+    fn add_to_layers(&mut self, alpha: R, depth: f64, value: f64, attributes: &SampleAttributes<R>, fractions: &[f64]) {
         let w = (R::ONE - self.of_samples) * alpha;
         self.of_samples = if alpha < R::ONE { self.of_samples + w } else { R::ONE };
         let sample = LayerSample {
@@ -440,7 +453,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             gradient: attributes.gradient.to_glam().to_array(),
             curvature: [attributes.principal[0], attributes.principal[1], attributes.kappa].map(Real::to_f64),
         };
-        self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, self.of_samples.to_f64());
+        let fractions = fractions.iter().copied().take(self.prepared.covering);
+        self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, self.of_samples.to_f64(), fractions);
     }
 }
 

@@ -3,6 +3,7 @@
 use super::no_label_names;
 use crate::document::Problem;
 use crate::document::check::Check;
+use crate::picture::LayerKind;
 use crate::tables::{LabelKey, ObjectTable, PartName, Scene};
 use std::collections::BTreeSet;
 
@@ -17,6 +18,7 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     labels(scene, check);
     references(scene, check);
     intersections(scene, check);
+    layers(scene, check);
 }
 
 /// An object is called by its name. No two may share one, and none may have that of another part.
@@ -132,6 +134,24 @@ fn intersections(scene: &Scene, check: &mut Check) {
     }
 }
 
+/// A layer of a part needs that part.
+fn layers(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["picture.layers"]) {
+        return;
+    }
+    let known = known_parts(&scene.objects);
+    for (i, layer) in scene.picture.layers.iter().enumerate() {
+        let LayerKind::Part(n) = *layer else { continue };
+        if n >= known.len() {
+            let parts = if known.len() == 1 { "part" } else { "parts" };
+            let what = format!("there is no {layer}: the scene has {} {parts}, counted from 0", known.len());
+            let named = known.iter().enumerate().map(|(i, part)| format!("{} ({part})", LayerKind::Part(i)));
+            let remedy = format!("there is {}", named.collect::<Vec<_>>().join(", "));
+            check.fault_in(&format!("picture.layers[{i}]"), Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use crate::file::{Overrides, parse};
@@ -206,6 +226,17 @@ mod tests {
             ),
             (object("") + "[[halo]]\nobject = \"tumors\"\n", "halo[0].object", "tumour"),
             (object("") + "[[halo]]\nobject = \"tumour ghost\"\n", "halo[0].object", "tumour"),
+            (
+                object("move = [0, 0, 4]") + "[picture]\nlayers = [\"part2\", \"part3\"]\n",
+                "picture.layers[1]",
+                "there is no part3: the scene has 3 parts, counted from 0\n",
+            ),
+            ("[picture]\nlayers = [\"part1\"]\n".into(), "the scene has 1 part,", "\n  there is part0 (background)"),
+            (
+                "[picture]\nlayers = [\"part0.A\"]\n".into(),
+                "picture.layers[0] cannot be \"part0.A\"",
+                "\n  write \"part0\"; ",
+            ),
         ] {
             let told = faults(&rest);
             assert!(told.contains(key) && told.contains(what), "{rest}\n{told}");

@@ -23,8 +23,8 @@ pub(super) const RULES: Rules = Rules {
             };
             let (needs, samples): (&[Quantity], Samples) = match layer {
                 LayerKind::Beauty | LayerKind::Z | LayerKind::Depth | LayerKind::First | LayerKind::Counts => continue,
-                // The rules of halos ask for what it needs.
-                LayerKind::Halo(_) => continue,
+                // The rules of halos and of objects ask for what they need.
+                LayerKind::Halo(_) | LayerKind::Part(_) => continue,
                 LayerKind::Normal | LayerKind::Gradient => (&[Quantity::Gradient], Samples::Visible),
                 LayerKind::Curvature => (&[Quantity::Hessian, along_view], Samples::Visible),
                 LayerKind::CurvatureAlongView => (&[along_view], Samples::Visible),
