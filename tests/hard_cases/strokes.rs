@@ -14,8 +14,7 @@ use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::philox::uniform;
 use drypoint::scene::space::Grid;
-use drypoint::scene::strokes::Stroke;
-use drypoint::scene::tables::Measure;
+use drypoint::scene::strokes::{Measure, Stroke};
 use drypoint::scene::volume::{Volume, Voxels};
 use std::path::Path;
 
