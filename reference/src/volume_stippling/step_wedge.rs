@@ -78,7 +78,7 @@ mod tests {
         assert_eq!([candidates(1.0, 4.0), candidates(2.0, 1.0)], [400.0; 2]);
     }
 
-    /// Touching dots in squares cover π/4 of the page, with ink π/4.
+    /// A dot of a nib of 2 mm has π mm² of ink.
     #[test]
     fn a_density_prints_its_ink() {
         let tone = Tone::ideal();
