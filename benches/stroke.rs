@@ -15,7 +15,8 @@ use drypoint::reference::interactive_volume_illustration::{
 };
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{GradientRange, Measure};
+use drypoint::scene::strokes::Measure;
+use drypoint::scene::tables::GradientRange;
 use drypoint::scene::volume::{Volume, Voxels};
 use rayon::prelude::*;
 use std::hint::black_box;

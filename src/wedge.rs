@@ -2,13 +2,11 @@
 
 use crate::Failure;
 use drypoint_output::text::{CAP_HEIGHT, WEIGHT, strokes, width};
-use drypoint_reference::volume_stippling::{DotCandidate, eliminate};
+use drypoint_reference::volume_stippling::step_wedge::{candidates, density, even_dots};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Marks, Page, Pen, Polyline, Vertex};
 use drypoint_scene::memory::{self, NoRoom};
-use drypoint_scene::philox;
 use drypoint_scene::tone::Tone;
-use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 /// Number of patches: 0, 0.05, … 0.9.
@@ -16,9 +14,6 @@ const PATCHES: usize = 19;
 
 /// Patches in a row.
 const ROW: usize = 5;
-
-/// Candidates for each dot.
-const OVERSAMPLING: f64 = 4.0;
 
 /// Bytes of memory that a candidate takes while dots are chosen among them.
 const CANDIDATE: f64 = 400.0;
@@ -74,7 +69,7 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<StepWedge
     }
     // The memory for the densest patch.
     let densest = steps().map(|wanted| density(tone, wanted, pen.width)).fold(0.0, f64::max);
-    let candidates = CandidateGrid::new(side, densest).count();
+    let candidates = candidates(side, densest);
     let too_fine = |no_room: NoRoom| {
         let what = format!("a step wedge of a nib of {} mm needs {no_room}", pen.width);
         // The number of candidates grows with the inverse square of the nib.
@@ -95,7 +90,7 @@ pub fn wedge(pen: &Pen, tone: &Tone, page: &Page, seed: u64) -> Result<StepWedge
     for (i, wanted) in steps().enumerate() {
         let place = DVec2::new((i % ROW) as f64, (i / ROW) as f64) * cell;
         let corner = origin + DVec2::new(GAP, title + GAP) + place;
-        for at in even(side, density(tone, wanted, nib), seed, i as u32) {
+        for at in even_dots(side, density(tone, wanted, nib), seed, i as u32) {
             layer.dots.push(Dot { at: corner + at, world: DVec3::ZERO, radius: 0.5 * nib, opacity: 1.0 });
         }
         // The outline lies outside the dots that overhang.
@@ -119,50 +114,6 @@ pub fn template() -> String {
         let _ = writeln!(text, "{wanted},");
     }
     text
-}
-
-/// Returns the dots of a nib in a square millimetre that print a tone.
-fn density(tone: &Tone, wanted: f64, nib: f64) -> f64 {
-    tone.ink(wanted) / (0.25 * PI * nib * nib)
-}
-
-/// Grid of candidates for a square of dots, one a cell. It is larger than the square, since chosen dots lie closer
-/// together at its border.
-struct CandidateGrid {
-    cell: f64,
-    border: f64,
-    /// Cells in a row, and number of rows.
-    cells: f64,
-}
-
-impl CandidateGrid {
-    /// Makes the grid for `density` dots a unit area, above 0.
-    fn new(side: f64, density: f64) -> Self {
-        let (cell, border) = (1.0 / (OVERSAMPLING * density).sqrt(), 4.0 / density.sqrt());
-        Self { cell, border, cells: ((side + 2.0 * border) / cell).ceil() }
-    }
-
-    fn count(&self) -> f64 {
-        self.cells * self.cells
-    }
-}
-
-/// Returns evenly spread points in a square, `density` a unit area.
-fn even(side: f64, density: f64, seed: u64, patch: u32) -> Vec<DVec2> {
-    if density <= 0.0 {
-        return Vec::new();
-    }
-    // A random candidate in each cell: the density is the same everywhere.
-    let CandidateGrid { cell, border, cells } = CandidateGrid::new(side, density);
-    let cells = cells as u32;
-    let at = |i: u32| {
-        let [x, y, ..] = philox::uniforms(seed, [i, patch, 0], 0);
-        (DVec2::new(f64::from(i % cells), f64::from(i / cells)) + DVec2::new(x, y)) * cell - border
-    };
-    let all = 0..cells * cells;
-    let candidates: Vec<DotCandidate> = all.map(|i| DotCandidate { at: at(i), share: 1.0 / OVERSAMPLING }).collect();
-    let places = eliminate(&candidates).into_iter().map(|i| candidates[i].at);
-    places.filter(|p| p.min_element() >= 0.0 && p.max_element() <= side).collect()
 }
 
 /// Letters drawn with a pen.
@@ -200,6 +151,7 @@ fn line(places: &[DVec2], width: f64, closed: bool) -> Polyline {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     fn pen(width: f64) -> Pen {
         Pen { number: 1, name: "black".into(), width, color: [0.0, 0.0, 0.0, 1.0] }

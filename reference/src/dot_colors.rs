@@ -8,9 +8,9 @@ use crate::style_transfer_functions::{Spheres, StyleIndex};
 use crate::transfer::{IndexTable, NodesError, Piecewise};
 use drypoint_scene::color::{Rgb, linear_to_oklab, linear_to_srgb, srgb_to_linear, unpremultiply};
 use drypoint_scene::points::{PointVoxel, Points};
+use drypoint_scene::shot::Mix;
 use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::Mix;
 use drypoint_scene::transfer::Function;
 use std::collections::BTreeMap;
 

@@ -4,8 +4,8 @@ use crate::field::{Cells, Place};
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::other_grid::OtherGrid;
+use drypoint_scene::shot::LabelLookup;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::LabelLookup;
 use drypoint_scene::volume::Anatomy;
 use drypoint_scene::volume::labels::LabelVolume;
 

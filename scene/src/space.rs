@@ -154,6 +154,16 @@ impl Grid {
         [DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1])]
     }
 
+    /// Lowest and highest corner, in index space, of the box about voxels from `lo` to `hi`. An axis of length 1 reaches
+    /// half a voxel each way ([VS-2]).
+    pub fn voxel_box(&self, [lo, hi]: [[usize; 3]; 2]) -> [DVec3; 2] {
+        let at = |axis: usize, i: usize, end: f64| if self.dims[axis] == 1 { end } else { i as f64 };
+        let corner =
+            |voxel: [usize; 3], end: DVec3| std::array::from_fn(|axis| at(axis, voxel[axis], end[axis])).into();
+        let [first, last] = self.index_box();
+        [corner(lo, first), corner(hi, last)]
+    }
+
     /// The eight corners of the field's box in world space, x fastest.
     pub fn world_corners(&self) -> [DVec3; 8] {
         let ends = self.index_box();
@@ -214,6 +224,14 @@ mod tests {
         let phi = (1.0 + 5f64.sqrt()) / 2.0;
         let values = singular_values(shear);
         assert!((values[0] - phi).abs() < 1e-15 && (values[2] - 1.0 / phi).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_box_of_voxels_ends_at_their_centres_and_half_a_voxel_from_a_flat_axis() {
+        let grid = Grid::with_spacing([5, 1, 3], [1.0; 3]).unwrap();
+        let found = grid.voxel_box([[1, 0, 0], [3, 0, 2]]);
+        assert_eq!(found, [DVec3::new(1.0, -0.5, 0.0), DVec3::new(3.0, 0.5, 2.0)]);
+        assert_eq!(grid.voxel_box([[0; 3], [4, 0, 2]]), grid.index_box());
     }
 
     #[test]

@@ -1,7 +1,19 @@
 //! Strokes on surfaces, made by hatching and outlines and drawn by pictures (Nagy, Schneider and Westermann 2002, 3.2,
 //! 4.1; [HATCH-10]).
 
+use crate::document::declare::choices;
 use glam::DVec3;
+
+choices! {
+    /// The measure of curvature by which seeds are chosen ([HATCH-6]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Measure {
+        /// |κ₁ + κ₂|/2: the paper's.
+        Mean = "mean",
+        /// √((κ₁² + κ₂²)/2), which minimal surfaces have, too.
+        Curvedness = "curvedness",
+    }
+}
 
 /// A place on a stroke.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,17 +7,15 @@ use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
 use drypoint_output::read::read_intersection_picture;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::inputs::Inputs;
 use drypoint_scene::intersection_picture::IntersectionPicture;
-use drypoint_scene::parallel;
 use drypoint_scene::plan::{NodesPlan, Plan};
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
 use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
 use drypoint_scene::transfer::Function;
-use drypoint_scene::volume::{Anatomy, Selection, Volume, read};
+use drypoint_scene::volume::{Anatomy, Selection, Volume, read, selected_by_value};
 use std::sync::Arc;
 
 /// The objects of a job.
@@ -256,12 +254,12 @@ fn selection_facts(
     match (selection, &object.value) {
         (Some(selection), _) => {
             let grid = selection.grid_in(world);
-            let index_box = selection.index_box().map(|ends| within(&grid, ends));
+            let index_box = selection.index_box().map(|ends| grid.voxel_box(ends));
             SelectionFacts { grid, index_box }
         }
         (None, Some(pairs)) => {
             let grid = of_data();
-            let index_box = selected_by_value(data, pairs).map(|ends| within(&grid, ends));
+            let index_box = selected_by_value(data, pairs).map(|ends| grid.voxel_box(ends));
             SelectionFacts { grid, index_box }
         }
         (None, None) => {
@@ -269,55 +267,4 @@ fn selection_facts(
             SelectionFacts { index_box: Some(grid.index_box()), grid }
         }
     }
-}
-
-/// The first and the last voxel with a membership above 0, grown by one voxel and clipped to the volume; none if there is none.
-fn selected_by_value(data: &Volume, pairs: &[[f64; 2]]) -> Option<[[usize; 3]; 2]> {
-    let [nx, ny, nz] = data.dims();
-    let is_selected = |value: f64| {
-        // Between two pairs the membership is above 0 unless both ends are 0.
-        let after = pairs.partition_point(|pair| pair[0] <= value);
-        let ends = [after.checked_sub(1).map_or(pairs.first(), |before| pairs.get(before)), pairs.get(after)];
-        match ends {
-            [Some(before), Some(next)] if before[0] <= value => before[1] > 0.0 || next[1] > 0.0 && value > before[0],
-            [Some(end), _] => end[1] > 0.0,
-            _ => false,
-        }
-    };
-    let of_slice = |z: usize| {
-        let mut found: Option<[[usize; 3]; 2]> = None;
-        for (y, x) in (0..ny).flat_map(|y| (0..nx).map(move |x| (y, x))) {
-            let voxel = [x, y, z];
-            let is_masked = data.mask().is_some_and(|mask| mask.voxel(voxel));
-            if !is_masked && is_selected(data.value(voxel)) {
-                found = Some(around(found, [voxel; 2]));
-            }
-        }
-        found
-    };
-    let around_both = |a: Option<[[usize; 3]; 2]>, b: Option<[[usize; 3]; 2]>| match b {
-        Some(b) => Some(around(a, b)),
-        None => a,
-    };
-    let [lo, hi] = parallel::map(nz, &of_slice).into_iter().fold(None, around_both)?;
-    let last = [nx - 1, ny - 1, nz - 1];
-    Some([lo.map(|i| i.saturating_sub(1)), std::array::from_fn(|a| (hi[a] + 1).min(last[a]))])
-}
-
-/// The smallest box around two.
-fn around(a: Option<[[usize; 3]; 2]>, b: [[usize; 3]; 2]) -> [[usize; 3]; 2] {
-    let Some([lo, hi]) = a else { return b };
-    [std::array::from_fn(|i| lo[i].min(b[0][i])), std::array::from_fn(|i| hi[i].max(b[1][i]))]
-}
-
-/// A box of voxels in index space; an axis of one voxel reaches half a voxel each way.
-fn within(grid: &Grid, [lo, hi]: [[usize; 3]; 2]) -> [DVec3; 2] {
-    let ends = grid.index_box();
-    let at = |voxel: [usize; 3]| DVec3::from_array(voxel.map(|i| i as f64)).clamp(ends[0], ends[1]);
-    let is_flat = |axis: usize| grid.dims()[axis] == 1;
-    let corner = |voxel, end: DVec3| {
-        let at: DVec3 = at(voxel);
-        DVec3::from_array(std::array::from_fn(|axis| if is_flat(axis) { end[axis] } else { at[axis] }))
-    };
-    [corner(lo, ends[0]), corner(hi, ends[1])]
 }

@@ -60,8 +60,21 @@ fn output_knows_no_volume() {
 }
 
 #[test]
-fn rays_read_the_shot_and_no_table_of_a_scene() {
-    assert_eq!(lines_with("reference/src/ray", &["scene::tables", "scene::plan", "scene::file"]), [""; 0]);
+fn rays_and_strokes_read_no_table_of_a_scene() {
+    let rooms = [
+        "field",
+        "interactive_volume_illustration",
+        "mesh",
+        "ray",
+        "style_transfer_functions",
+        "surface",
+        "transfer",
+        "volumetric_halos",
+    ];
+    for room in rooms {
+        let words = ["scene::tables", "scene::plan", "scene::file"];
+        assert_eq!(lines_with(&format!("reference/src/{room}"), &words), [""; 0]);
+    }
 }
 
 #[test]

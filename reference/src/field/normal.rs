@@ -1,7 +1,7 @@
 //! The shading normal ([NORM-1]), and the condition under which there is none ([PREC-3]).
 
 use crate::number::{Arithmetic, Real, Vec3};
-use drypoint_scene::tables::Outside;
+use drypoint_scene::shot::Outside;
 
 /// A shading normal, or one for each lane.
 #[derive(Clone, Copy)]

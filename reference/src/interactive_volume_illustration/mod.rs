@@ -30,8 +30,8 @@ pub use strokes::{
     RejectCause, RejectCounts, StrokeEnd, StrokeEnds, StrokeField, StrokeGrower, integrator,
 };
 pub use tone::{
-    EvenStrokes, LineDistance, LineLight, LineLightTable, LineLightTerms, LineSpacing, SilhouetteTest, StrokeDirection,
-    Toon, ViewOpacity,
+    DepthRange, EvenStrokes, LineDistance, LineLight, LineLightTable, LineLightTerms, LineSpacing, SilhouetteTest,
+    StrokeDirection, Toon, ViewOpacity, WidthShares, crossed_tone, crossed_tones, scatter, surface_tone,
 };
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Style contours (3.3): the threshold of eq. 1 ([STF-7]) and the push along the radius of the sphere ([STF-8]).
 
 use crate::number::{Arithmetic, Mask, Real};
-use drypoint_scene::tables::Kappa;
+use drypoint_scene::shot::Kappa;
 
 /// The contour threshold τ of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The frame in which a normal is looked up on the lit sphere ([STF-1]).
 
 use crate::number::{Arithmetic, Real, Vec3};
-use drypoint_scene::tables::SphereFrame;
+use drypoint_scene::shot::SphereFrame;
 
 /// N in the frame of the lit sphere; its x and y are the lookup.
 ///

@@ -5,7 +5,7 @@ use crate::field::lanes::{LANES, whole};
 use crate::number::Arithmetic;
 use crate::number::lanes::columns;
 use crate::transfer::lanes::NodePlaces;
-use drypoint_scene::tables::Mix;
+use drypoint_scene::shot::Mix;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 

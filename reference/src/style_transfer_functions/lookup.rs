@@ -4,8 +4,8 @@ use super::{MipMap, SphereMap};
 use crate::bilinear::mix;
 use crate::number::Real;
 use crate::transfer::{NodePatch, NodePlace};
+use drypoint_scene::shot::Mix;
 use drypoint_scene::style::Style;
-use drypoint_scene::tables::Mix;
 
 /// The index function `ift` (4.1): from the nodes of `tft` to the M distinct styles.
 #[derive(Clone, Debug, PartialEq)]

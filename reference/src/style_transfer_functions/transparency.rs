@@ -1,7 +1,7 @@
 //! Illustrative transparency (3.4, eq. 2; [STF-9]).
 
 use crate::number::{Elementary, Mask};
-use drypoint_scene::tables::Transparency;
+use drypoint_scene::shot::Transparency;
 
 /// α/α_d: the factor of the style's premultiplied colour and directional opacity. All opacities here are per reference
 /// length. The correction for the step ([VAL-4]) comes after.

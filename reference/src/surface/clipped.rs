@@ -5,7 +5,7 @@ use super::traversal::IndexLine;
 use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
 use drypoint_scene::clip::ClipPlanes;
-use drypoint_scene::tables::Outside;
+use drypoint_scene::shot::Outside;
 use drypoint_scene::volume::Mask;
 
 /// A place where a line meets a surface.

@@ -2,7 +2,7 @@
 
 use super::{Clipped, IsoSurface};
 use drypoint_scene::glam::DVec3;
-use drypoint_scene::tables::Outside;
+use drypoint_scene::shot::Outside;
 use drypoint_scene::view::View;
 
 impl IsoSurface<'_, '_> {

@@ -19,6 +19,7 @@ mod preprocess;
 mod resolution;
 mod ridge;
 mod slab;
+pub mod step_wedge;
 mod surface_layer;
 
 pub use curve_lines::joined;

@@ -50,7 +50,7 @@ pub use halo::{
 };
 pub use hatching::{
     DirectionRule, DirectionSource, Directions, Family, HatchIso, HatchStyle, Hatching, Hidden, Interpolate,
-    LineLighting, Measure, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
+    LineLighting, Reference, SeedsBy, Spacing, StoredAt, StrokeStyle,
 };
 pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable, Opposite};
 pub use mesh::MeshTable;

@@ -18,6 +18,7 @@ pub mod read;
 mod selection;
 mod shown;
 mod subset;
+mod value_box;
 pub mod write;
 
 pub use bricks::{BRICK, BrickRow, Bricks};
@@ -26,6 +27,7 @@ pub use raw_layout::RawLayout;
 pub use selection::Selection;
 pub use shown::ShownValues;
 pub use subset::{KeptVoxels, NotInVolume, Subset};
+pub use value_box::selected_by_value;
 pub use voxels::{Access, Linear, Voxel, VoxelType, Voxels};
 
 use crate::parallel;

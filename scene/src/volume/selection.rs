@@ -86,10 +86,13 @@ impl Selection {
     /// The box of [VS-2], in index space: from the least to the greatest voxel with membership above 0, grown by one voxel
     /// and clipped to the grid. None if the membership is 0 everywhere.
     pub fn index_box(&self) -> Option<[[usize; 3]; 2]> {
-        let [lo, hi] = self.memberships.occupied()?;
-        let last = self.grid.dims().map(|n| n - 1);
-        Some([lo.map(|i| i.saturating_sub(1)), std::array::from_fn(|a| (hi[a] + 1).min(last[a]))])
+        self.memberships.occupied().map(|ends| grown(ends, self.grid.dims()))
     }
+}
+
+/// A box of voxels, grown by one voxel and clipped to the volume ([VS-2]).
+pub(super) fn grown([lo, hi]: [[usize; 3]; 2], dims: [usize; 3]) -> [[usize; 3]; 2] {
+    [lo.map(|i| i.saturating_sub(1)), std::array::from_fn(|a| (hi[a] + 1).min(dims[a] - 1))]
 }
 
 #[cfg(test)]

@@ -9,18 +9,9 @@ use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Pen, Polyline};
 use drypoint_scene::math;
 use drypoint_scene::parallel;
-use drypoint_scene::philox::uniform;
-use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::Stroke;
-use drypoint_scene::tables::{Hatching as Table, Spacing};
-use drypoint_scene::view::View;
+use drypoint_scene::tables::Spacing;
 use std::time::Instant;
-
-/// τ above which strokes are crossed if the tone is in the spacing ([HATCH-19]).
-const CROSSED: f64 = 0.6;
-
-/// Size of a pencil's grain on paper, in voxels.
-const GRAIN: f64 = 0.4;
 
 impl GrownHatching<'_> {
     /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own.
@@ -28,7 +19,7 @@ impl GrownHatching<'_> {
         let HatchingSetup { table, pen, cross_pen, spacing, .. } = self.hatching;
         let start = Instant::now();
         let light = frame.view.towards(self.hatching.light);
-        let tone = |normal: DVec3| 1.0 - (table.stroke.ambient + normal.dot(light)).clamp(0.0, 1.0);
+        let tone = |normal: DVec3| room::surface_tone(table.stroke.ambient, normal, light);
         // Strokes lie in front of the surface themselves.
         let sight = frame.sight(0.0);
         let [lines, across] = match (&self.grown, *spacing) {
@@ -65,7 +56,7 @@ impl GrownHatching<'_> {
             first.append(&mut across);
         }
         // Each direction in its pen: style along the stroke, then hidden parts cut off.
-        let depths = Depths::new(sight.view, self.strokes.ground().grid());
+        let depths = room::DepthRange::new(sight.view, self.strokes.ground().grid());
         let one_width = [table.has_one_width(), table.has_one_width() || table.cross_pen.is_some()];
         let inks = [pen, cross_pen].into_iter().zip(one_width).map(|(pen, one)| (pen.width, one));
         let mut lines = inks.zip([first, across]).map(|(ink, strokes)| {
@@ -94,16 +85,20 @@ impl GrownHatching<'_> {
         sight: &room::Sight<'_>,
         (stroke, length, (widest, one_width)): (&Stroke, f64, (f64, bool)),
         room::StrokePoint { vertex, tangent }: &room::StrokePoint,
-        (light, depths): (DVec3, Depths),
+        (light, depths): (DVec3, room::DepthRange),
         tone: &impl Fn(DVec3) -> f64,
     ) -> room::PenState {
         let HatchingSetup { table, lighting, .. } = self.hatching;
         let width = if one_width {
             widest
         } else {
-            let tapered =
-                widest * math::pow(tone(vertex.normal), table.tone()) * taper(stroke, vertex.u, table.taper());
-            tapered * self.scattered(stroke) * (1.0 - table.stroke.depth * depths.share(sight.view, vertex.world))
+            let shares = room::WidthShares {
+                tone: (tone(vertex.normal), table.tone()),
+                taper: (vertex.u, if stroke.closed { 0.0 } else { table.taper() }),
+                scatter: room::scatter(table.stroke.jitter, table.seed, stroke.key),
+                depth: (depths.share(sight.view, vertex.world), table.stroke.depth),
+            };
+            shares.width(widest)
         };
         // Colour and opacity: light on lines, a pencil's grain, the transfer function.
         let lit = lighting.as_ref().map(|lighting| {
@@ -113,20 +108,13 @@ impl GrownHatching<'_> {
         });
         let (color, mut opacity) = lit.map_or((None, 1.0), |[r, g, b, opacity]| (Some([r, g, b]), opacity));
         if self.hatching.is_pencil {
-            let grains = vertex.u * length / (GRAIN * self.strokes.ground().grid().voxel());
-            opacity *= tone(vertex.normal) * room::grain(table.seed, stroke.key, grains);
+            let voxel = self.strokes.ground().grid().voxel();
+            opacity *= tone(vertex.normal) * room::grain(table.seed, stroke.key, vertex.u * length, voxel);
         }
         if let Some(shown) = &self.hatching.seen {
             opacity *= self.strokes.value(vertex.world).map_or(0.0, |value| shown.opacity(value));
         }
         room::PenState { radius: width / 2.0, opacity, color }
-    }
-
-    /// Returns the random factor of a stroke's width, 1 ± jitter.
-    fn scattered(&self, stroke: &Stroke) -> f64 {
-        let Table { stroke: style, seed, .. } = self.hatching.table;
-        let key = [stroke.key as u32, (stroke.key >> 32) as u32, 0];
-        if style.jitter == 0.0 { 1.0 } else { 1.0 + style.jitter * (2.0 * uniform(*seed, key, 3) - 1.0) }
     }
 
     /// Whether a whole stroke turns away from the eye, so that its own surface hides it. False if another surface hides
@@ -150,16 +138,12 @@ impl GrownHatching<'_> {
         let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
         let crossed = table.cross.is_some();
         let by_tone = table.spacing == Spacing::Tone;
-        // Both directions together print 1 − (1 − τ₁)(1 − τ₂), which is the tone. With a constant distance the second
-        // direction begins at the same tone.
-        let first = |normal: DVec3| match (by_tone, crossed) {
-            (true, true) => tone(normal).min(CROSSED),
-            (true, false) => tone(normal),
-            (false, _) => 1.0,
+        let printed = |normal: DVec3| match (by_tone, crossed) {
+            (true, true) => room::crossed_tones(tone(normal)),
+            (true, false) => [tone(normal), 0.0],
+            (false, _) => [1.0, room::crossed_tone(tone(normal))],
         };
-        let second = |normal: DVec3| {
-            if by_tone { (tone(normal) - CROSSED) / (1.0 - CROSSED) } else { f64::from(tone(normal) > CROSSED) }
-        };
+        let [first, second] = [0, 1].map(|direction| move |normal: DVec3| printed(normal)[direction]);
         let mut even_lines = |along, pen: &Pen, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
             let margin = DVec2::splat(sight.page.margin);
             let corners = [margin, sight.page.size - margin];
@@ -175,29 +159,4 @@ impl GrownHatching<'_> {
         count_kept(counts, &self.strokes);
         [lines, across]
     }
-}
-
-/// Depths of the nearest and the farthest corner of a volume.
-#[derive(Clone, Copy)]
-struct Depths([f64; 2]);
-
-impl Depths {
-    fn new(view: &View, grid: &Grid) -> Self {
-        let last = grid.dims().map(|n| n as f64 - 1.0);
-        let corner =
-            |i: usize| DVec3::from_array(std::array::from_fn(|axis| if i >> axis & 1 == 1 { last[axis] } else { 0.0 }));
-        let depths = (0..8).map(|i| -view.to_eye(grid.to_world(corner(i))).z);
-        Self(depths.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], depth| [lo.min(depth), hi.max(depth)]))
-    }
-
-    /// Returns the relative depth: 0 at the nearest corner, 1 at the farthest.
-    fn share(&self, view: &View, world: DVec3) -> f64 {
-        let [near, far] = self.0;
-        if far > near { ((-view.to_eye(world).z - near) / (far - near)).clamp(0.0, 1.0) } else { 0.0 }
-    }
-}
-
-/// Returns the taper min(1, u/b, (1 − u)/b), and 1 on a stroke without ends.
-fn taper(stroke: &Stroke, u: f64, b: f64) -> f64 {
-    if stroke.closed || b == 0.0 { 1.0 } else { (u / b).min((1.0 - u) / b).clamp(0.0, 1.0) }
 }

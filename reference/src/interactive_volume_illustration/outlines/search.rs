@@ -19,9 +19,9 @@ use crate::number::Vec3;
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::parallel;
+use drypoint_scene::shot::Outside;
 use drypoint_scene::space::Grid;
 use drypoint_scene::strokes::{Stroke, StrokeVertex};
-use drypoint_scene::tables::Outside;
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{BRICK, Mask};
 

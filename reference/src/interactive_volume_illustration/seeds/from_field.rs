@@ -8,7 +8,8 @@ use crate::field::Field;
 use crate::field::quantile_of_norms;
 use crate::number::Vec3;
 use drypoint_scene::math::scale_by_power_of_two;
-use drypoint_scene::tables::{GradientRange, Measure as Kind};
+use drypoint_scene::shot::GradientRange;
+use drypoint_scene::strokes::Measure as Kind;
 
 /// Gradient lengths that count as |∇| = 0 and 1 ([VAL-2]), times the power of two of [SPACE-4]. The number is that of
 /// the voxels read to find them.

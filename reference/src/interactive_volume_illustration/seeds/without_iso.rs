@@ -5,7 +5,7 @@ use super::pyramid::Pyramid;
 use super::selection::{SeedRule, Seeds};
 use crate::field::Field;
 use drypoint_scene::glam::DVec3;
-use drypoint_scene::tables::Measure as Kind;
+use drypoint_scene::strokes::Measure as Kind;
 
 impl StrokeGrower<'_, '_> {
     /// Like [`seeds`](Self::seeds), for the cells in whose closed range of values one counts.

@@ -23,6 +23,9 @@ const OPACITY: f64 = 0.1;
 /// The largest share of its opacity that a pencil stroke loses to the paper's grain.
 const GRAIN: f64 = 0.6;
 
+/// Size of a grain of the paper, in voxels.
+const GRAIN_SIZE: f64 = 0.4;
+
 /// The largest number of halvings of a segment.
 const HALVINGS: u32 = 5;
 
@@ -44,9 +47,10 @@ pub struct StyledStroke {
     pub pens: Vec<PenState>,
 }
 
-/// Share of its opacity that a pencil stroke keeps on grainy paper. `along` counts grains along the stroke. Values
-/// are random numbers of the stroke's key at whole grains, and linear between them.
-pub fn grain(seed: u64, key: u64, along: f64) -> f64 {
+/// Share of its opacity that a pencil stroke keeps on grainy paper, `length` along the stroke; `voxel` has the same unit.
+/// Values are random numbers of the stroke's key at whole grains, and linear between them.
+pub fn grain(seed: u64, key: u64, length: f64, voxel: f64) -> f64 {
+    let along = length / (GRAIN_SIZE * voxel);
     let first = along.max(0.0).floor();
     let node = |n: f64| uniform(seed, [key as u32, (key >> 32) as u32, n as u32], 2);
     let (a, b) = (node(first), node(first + 1.0));
@@ -291,7 +295,7 @@ mod tests {
     /// The grain is seeded, within its range and continuous. Another stroke has another grain.
     #[test]
     fn the_grain_of_paper() {
-        let at = |key, i: u32| grain(5, key, f64::from(i) / 64.0);
+        let at = |key, i: u32| grain(5, key, f64::from(i) / 64.0, 1.0 / GRAIN_SIZE);
         let all: Vec<f64> = (0..64 * 200).map(|i| at(9, i)).collect();
         assert!(all.iter().all(|g| (1.0 - GRAIN..=1.0).contains(g)));
         assert!(all.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= GRAIN / 64.0 + 1e-12));

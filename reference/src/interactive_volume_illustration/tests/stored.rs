@@ -9,7 +9,7 @@ use super::*;
 use crate::field::{Field, Reconstruction, Rung};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::philox::uniform;
-use drypoint_scene::tables::Measure;
+use drypoint_scene::strokes::Measure;
 use drypoint_scene::volume::Voxels;
 
 const TENSOR: Option<DirectionStorage> = Some(DirectionStorage { between: DirectionInterpolation::Tensor, all: false });

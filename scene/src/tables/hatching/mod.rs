@@ -11,4 +11,4 @@ pub use lighting::LineLighting;
 pub(crate) use presets::HatchPreset;
 pub use stroke::StrokeStyle;
 pub(crate) use table::TABLE;
-pub use table::{Family, HatchIso, HatchStyle, Hatching, Hidden, Measure, SeedsBy, Spacing};
+pub use table::{Family, HatchIso, HatchStyle, Hatching, Hidden, SeedsBy, Spacing};

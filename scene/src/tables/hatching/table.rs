@@ -11,6 +11,7 @@ use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, End, Flag, Lengths, Number, On, TableOf, Text, WORLD_LENGTH, Whole};
 use crate::document::out::Out;
+use crate::strokes::Measure;
 use crate::tables::surface::IsoKind;
 use crate::tables::{Iso, Length};
 use serde_json::{Value as Json, json};
@@ -125,17 +126,6 @@ choices! {
         Curvature = "curvature",
         /// In every one.
         Dense = "dense",
-    }
-}
-
-choices! {
-    /// `measure` ([HATCH-6]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Measure {
-        /// |κ₁ + κ₂|/2: the paper's.
-        Mean = "mean",
-        /// √((κ₁² + κ₂²)/2), which minimal surfaces have, too.
-        Curvedness = "curvedness",
     }
 }
 
