@@ -4,9 +4,9 @@ use crate::Failure;
 use crate::frames::Frames;
 use crate::job::{Job, KnobVariant, render_failure, room_for_picture};
 use crate::stippling::PointTest;
-use drypoint_gpu::{CardInputs, Renderer};
-pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Kernel, Precision, wgpu};
-pub use drypoint_gpu::{HiddenPoints, Hiding, Volume};
+use drypoint_gpu::{CardInputs, CardRenderer};
+pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Precision, ShaderKernel, wgpu};
+pub use drypoint_gpu::{HiddenPoints, Hiding, UploadedVolume};
 use drypoint_reference::ray::lattice::samples_in;
 use drypoint_reference::ray::{measure, within_planes};
 use drypoint_reference::surface::IsoSurface;
@@ -36,7 +36,7 @@ struct Uploaded {
     /// The facts of the volume, then of those of the parts of objects; their numbers are on the card.
     measured: Vec<Measured>,
     /// The volume, then those that objects have of their own.
-    volumes: Vec<Volume>,
+    volumes: Vec<UploadedVolume>,
     /// For each entry of `measured` the place of its volume.
     places: Vec<usize>,
     /// The volume that each entry of `measured` is of.
@@ -60,7 +60,7 @@ impl Uploaded {
             let same = measured[..i].iter().position(|other| Arc::ptr_eq(&other.numbers, &own.numbers));
             places.push(same.map_or(volumes.len(), |same| places[same]));
             if same.is_none() {
-                volumes.push(Volume::new(gpu, own, precision).map_err(|error| failure(&error, &scene.given))?);
+                volumes.push(UploadedVolume::new(gpu, own, precision).map_err(|error| failure(&error, &scene.given))?);
             }
         }
         let measured = measured.into_iter().map(Measured::without_numbers).collect();
@@ -110,7 +110,7 @@ impl<'a> GpuJob<'a> {
     ///
     /// # Errors
     /// An effect without a shader, and errors of the adapter.
-    pub fn renderer(&self) -> Result<Renderer, Failure> {
+    pub fn renderer(&self) -> Result<CardRenderer, Failure> {
         self.edited(&|text| text)
     }
 
@@ -118,10 +118,10 @@ impl<'a> GpuJob<'a> {
     ///
     /// # Errors
     /// Same errors as [`GpuJob::renderer`].
-    pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<Renderer, Failure> {
+    pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<CardRenderer, Failure> {
         let Uploaded { shot, volumes, .. } = &self.uploaded;
         let data = self.job.inputs(shot);
-        let renderer = Renderer::edited(self.gpu, volumes, shot, &self.uploaded.inputs(&data), edit);
+        let renderer = CardRenderer::edited(self.gpu, volumes, shot, &self.uploaded.inputs(&data), edit);
         renderer.map_err(|error| self.failure(&error))
     }
 
@@ -143,7 +143,7 @@ impl<'a> GpuJob<'a> {
 pub struct GpuFrames {
     gpu: Gpu,
     uploaded: Uploaded,
-    renderer: Renderer,
+    renderer: CardRenderer,
     grid: Grid,
     /// The keys of the scene, for errors.
     given: Given,
@@ -177,7 +177,7 @@ impl GpuFrames {
     /// Takes another scene for the frames that follow, for example one of which the user has moved a clip plane; lines inside the
     /// volume go. Facts of volumes that both jobs share stay, and so do the volumes on the card, unless the scene asks for others
     /// ([`Shot::keeps_facts_of`]). Then all are measured and uploaded anew, while those of before are still there. Pipelines stay
-    /// where the shader's text does ([`Renderer::change`]).
+    /// where the shader's text does ([`CardRenderer::change`]).
     ///
     /// # Errors
     /// Same errors as [`GpuFrames::new`]. The frames that follow are then those of before.
@@ -206,7 +206,7 @@ impl GpuFrames {
 
     /// Returns the bytes of the volume's numbers on the card.
     pub fn bytes(&self) -> u64 {
-        self.uploaded.volumes.iter().map(Volume::bytes).sum()
+        self.uploaded.volumes.iter().map(UploadedVolume::bytes).sum()
     }
 
     /// The texture of the last frame that was shown.
@@ -280,7 +280,7 @@ fn has_room(job: &Job, scene: &Scene, plan: &Plan) -> Result<(), Failure> {
 pub(crate) fn point_test(job: &Job, gpu: &Gpu, surface: &IsoSurface<'_, '_>, near: f64) -> Result<PointTest, Failure> {
     let failure = |error: GpuError| Failure::new(error.to_string(), "--backend", remedy(&error));
     let measured = surface.measured();
-    let volume = Volume::new(gpu, &measured, Precision::Single).map_err(failure)?;
+    let volume = UploadedVolume::new(gpu, &measured, Precision::Single).map_err(failure)?;
     let hiding = Hiding {
         volume: &job.volume,
         measured: &measured,

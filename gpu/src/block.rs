@@ -7,12 +7,12 @@ use std::fmt::Write;
 /// Scalars by their names: a WGSL struct of numbers alone, so that member i lies at i times the size of a number, whatever
 /// its type. A vector is three of them and a function that puts them together.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Block {
+pub(crate) struct ParamBlock {
     fields: Vec<(String, f64)>,
     vectors: Vec<&'static str>,
 }
 
-impl Block {
+impl ParamBlock {
     /// Adds a number, `params.name` in the shader.
     pub(crate) fn number(&mut self, name: impl Into<String>, value: f64) {
         self.fields.push((name.into(), value));
@@ -78,7 +78,7 @@ mod tests {
     /// The offsets that naga gives the members are those at which the bytes lie.
     #[test]
     fn members_lie_one_after_the_other() {
-        let mut block = Block::default();
+        let mut block = ParamBlock::default();
         block.number("a", 1.0);
         block.vector("b", DVec3::new(2.0, 3.0, 4.0));
         block.number("c", 5.0);

@@ -1,6 +1,6 @@
 //! The canvas that the passes of a frame draw on.
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::buffers::entry;
 use crate::clock::Clock;
 use crate::picture_buffers::PictureBuffers;
@@ -40,7 +40,7 @@ impl Canvas<'_> {
     }
 
     /// Writes the scalars for the submissions that follow.
-    pub(crate) fn write_params(&self, block: &Block, precision: Precision) -> Result<(), GpuError> {
+    pub(crate) fn write_params(&self, block: &ParamBlock, precision: Precision) -> Result<(), GpuError> {
         self.gpu.attempt("the parameters", || self.gpu.queue.write_buffer(self.params, 0, &block.bytes(precision)))
     }
 

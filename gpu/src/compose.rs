@@ -2,9 +2,9 @@
 
 pub(crate) mod objects;
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::field::Scales;
-use crate::place::Place;
+use crate::place::GridPlacement;
 use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
 use crate::{
@@ -35,7 +35,7 @@ pub(crate) fn shader(
     if inputs.has_lines && !shot.halos.list.is_empty() {
         return Err(GpuError::Missing { what: "lines inside a volume with halos", key: "hatching.hidden" });
     }
-    let place = Place::own(shot, inputs.data.main.volume.grid());
+    let place = GridPlacement::own(shot, inputs.data.main.volume.grid());
     let (mut shader, scales) = of_volume((shot, layers, false), (inputs, 0), &place, precision, interpolation)?;
     objects::add(&mut shader, shot, inputs, &scales, precision)?;
     Ok((shader, scales))
@@ -46,7 +46,7 @@ pub(crate) fn shader(
 fn of_volume(
     (shot, layers, is_part): (&Shot, &[LayerKind], bool),
     (inputs, which): (&CardInputs<'_>, usize),
-    place: &Place,
+    place: &GridPlacement,
     precision: Precision,
     interpolation: Interpolation,
 ) -> Result<(Shader, Scales), GpuError> {
@@ -163,9 +163,9 @@ fn of_volume(
 }
 
 /// The numbers of a shader that depend on the camera, of a shot for a volume at a place.
-pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
+pub(crate) fn camera(shot: &Shot, place: &GridPlacement) -> Result<ParamBlock, GpuError> {
     let object = shot.background();
-    let mut block = Block::default();
+    let mut block = ParamBlock::default();
     ray::add_view(&mut block, shot, place)?;
     add_near(&mut block, shot, place);
     let of_samples = if let Material::Regular(lit) = &object.material { light_of(lit) } else { None };
@@ -181,7 +181,7 @@ pub(crate) fn camera(shot: &Shot, place: &Place) -> Result<Block, GpuError> {
 }
 
 /// Adds the near distance where surfaces or funnels ask for it.
-fn add_near(block: &mut Block, shot: &Shot, place: &Place) {
+fn add_near(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) {
     if ray::ends_rays(shot) || volumeshop::has_funnel(shot) {
         ray::add_near(block, shot, place);
     }

@@ -103,7 +103,7 @@ impl Gpu {
         Self { device, queue, info, interpolation: Interpolation::Exact, pipelines: Arc::default(), lost }
     }
 
-    /// The device, to make textures for [`Renderer::frame_into`](crate::Renderer::frame_into).
+    /// The device, to make textures for [`CardRenderer::frame_into`](crate::CardRenderer::frame_into).
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
@@ -156,7 +156,7 @@ impl Gpu {
         Ok(Self { interpolation, ..self.clone() })
     }
 
-    /// Makes a texture for the frames of a viewer ([`Renderer::frame_into`](crate::Renderer::frame_into)).
+    /// Makes a texture for the frames of a viewer ([`CardRenderer::frame_into`](crate::CardRenderer::frame_into)).
     ///
     /// # Errors
     /// A texture that is too large, or for which there is no memory.

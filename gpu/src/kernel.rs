@@ -1,6 +1,6 @@
 //! Functions of shaders over tables of inputs, to compare them formula by formula.
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::glam::DVec3;
@@ -11,7 +11,7 @@ const MOST_ROWS: usize = 1 << 20;
 
 /// Expressions in WGSL over the rows of a table.
 #[derive(Clone, Debug, Default)]
-pub struct Kernel<'k> {
+pub struct ShaderKernel<'k> {
     /// The text of the modules that the expressions call, one after the other; the number type comes before it.
     pub modules: String,
     /// Numbers that the modules read as `params.name`.
@@ -30,7 +30,7 @@ pub struct Kernel<'k> {
     pub results: &'k [&'k str],
 }
 
-impl Kernel<'_> {
+impl ShaderKernel<'_> {
     /// Evaluates the expressions for the rows of a table, `columns` numbers each.
     ///
     /// # Errors
@@ -45,7 +45,7 @@ impl Kernel<'_> {
         let rows = table.len() / columns;
         assert!(rows <= MOST_ROWS, "{rows} rows");
         // Group 0: parameters, results and the table. Group 1: lists.
-        let mut block = Block::default();
+        let mut block = ParamBlock::default();
         block.number("rows", rows as f64);
         self.params.iter().for_each(|&(name, value)| block.number(name, value));
         self.vectors.iter().for_each(|&(name, value)| block.vector(name, DVec3::from_array(value)));
@@ -97,7 +97,7 @@ impl Kernel<'_> {
         Ok(precision.numbers(&read(gpu, &back, bytes)?))
     }
 
-    fn text(&self, block: &Block, precision: Precision, columns: usize) -> String {
+    fn text(&self, block: &ParamBlock, precision: Precision, columns: usize) -> String {
         let number = number::of(precision);
         let Self { modules, before, results, .. } = self;
         let mut text = format!("{}\n{}\n{modules}\n", number.text, block.wgsl());

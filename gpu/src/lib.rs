@@ -1,6 +1,6 @@
 //! Drypoint's pictures on graphics cards, by wgpu.
 //!
-//! A [`Gpu`] is an adapter with its device. A [`Volume`] is uploaded once, and a [`Renderer`] draws any number of frames of
+//! A [`Gpu`] is an adapter with its device. A [`UploadedVolume`] is uploaded once, and a [`CardRenderer`] draws any number of frames of
 //! it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning: planes, formulas and every `auto` are
 //! those of the shot, and what only voxels can tell comes measured, in a
 //! [`Measured`](drypoint_scene::measured::Measured).
@@ -40,8 +40,8 @@ mod volumetric_halos;
 pub use device::{Gpu, Interpolation, Precision, WANTED};
 pub use error::GpuError;
 pub use inputs::CardInputs;
-pub use kernel::Kernel;
-pub use renderer::Renderer;
-pub use volume::Volume;
+pub use kernel::ShaderKernel;
+pub use renderer::CardRenderer;
+pub use volume::UploadedVolume;
 pub use volume_stippling::{HiddenPoints, Hiding};
 pub use wgpu;

@@ -6,7 +6,7 @@ use drypoint_scene::space::Grid;
 
 /// The place of a volume as it is drawn.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub(crate) struct GridPlacement {
     /// Its grid there.
     pub(crate) grid: Grid,
     /// The box of its samples in index space.
@@ -19,7 +19,7 @@ pub(crate) struct Place {
     pub(crate) moved: Option<DMat3>,
 }
 
-impl Place {
+impl GridPlacement {
     /// The place of the picture's own volume.
     pub(crate) fn own(shot: &Shot, grid: &Grid) -> Self {
         let (anchor, voxel) = (anchor(shot, grid), grid.voxel());

@@ -6,7 +6,7 @@ use crate::clock::Clock;
 use crate::compose::objects::PlacesOfObjects;
 use crate::field::Scales;
 use crate::picture_buffers::PictureBuffers;
-use crate::place::Place;
+use crate::place::GridPlacement;
 use crate::ray::layers::in_picture_units;
 use crate::ray::lines::{LINE_STARTS, LINES, LinesOnRays};
 use crate::ray::passes::RayPasses;
@@ -14,7 +14,7 @@ use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::{HaloPlanes, corners};
-use crate::{CardInputs, Gpu, GpuError, Precision, Volume, compose, volumeshop};
+use crate::{CardInputs, Gpu, GpuError, Precision, UploadedVolume, compose, volumeshop};
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
@@ -36,7 +36,7 @@ enum Rays {
 }
 
 /// A shot that is ready to be drawn any number of times.
-pub struct Renderer {
+pub struct CardRenderer {
     gpu: Gpu,
     precision: Precision,
     shader: Shader,
@@ -63,22 +63,22 @@ pub struct Renderer {
     size: [usize; 2],
 }
 
-impl Renderer {
+impl CardRenderer {
     /// Prepares a shot for volumes that are already uploaded: the picture's, and those that objects have of their own.
     ///
     /// # Errors
     /// An effect without a shader, data that do not fit, a driver that refuses.
-    pub fn new(gpu: &Gpu, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, volumes: &[UploadedVolume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volumes, shot, inputs, &|text| text)
     }
 
     /// Prepares a shot with an edited shader, for tests of whether a comparison notices a fault.
     ///
     /// # Errors
-    /// See [`Renderer::new`].
+    /// See [`CardRenderer::new`].
     pub fn edited(
         gpu: &Gpu,
-        volumes: &[Volume],
+        volumes: &[UploadedVolume],
         shot: &Shot,
         inputs: &CardInputs<'_>,
         edit: &dyn Fn(String) -> String,
@@ -92,7 +92,7 @@ impl Renderer {
     /// Compiles the pipelines of a shot and uploads its data.
     fn compiled(
         gpu: &Gpu,
-        volumes: &[Volume],
+        volumes: &[UploadedVolume],
         shot: &Shot,
         inputs: &CardInputs<'_>,
         (shader, scales, text): (Shader, Scales, String),
@@ -146,13 +146,13 @@ impl Renderer {
         })
     }
 
-    /// Takes another shot for the frames that follow, by the arguments of [`Renderer::new`]; lines inside the volume go. Pipelines
+    /// Takes another shot for the frames that follow, by the arguments of [`CardRenderer::new`]; lines inside the volume go. Pipelines
     /// are compiled only where the text of the shader, the layers, the size of the picture or the reach of halos and funnels
     /// differs. Other numbers and colours, and moved clip planes, are uploaded as scalars and as the lists that differ.
     ///
     /// # Errors
-    /// See [`Renderer::new`]. The renderer then draws the shot of before.
-    pub fn change(&mut self, volumes: &[Volume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<(), GpuError> {
+    /// See [`CardRenderer::new`]. The renderer then draws the shot of before.
+    pub fn change(&mut self, volumes: &[UploadedVolume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<(), GpuError> {
         let layers = drawn_layers(shot);
         let (shader, scales) = compose::shader(shot, &layers, inputs, self.precision, self.gpu.interpolation())?;
         let text = shader.text(self.precision);
@@ -189,7 +189,7 @@ impl Renderer {
     /// # Errors
     /// More sample planes than the shader counts.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
-        let place = Place::own(shot, grid);
+        let place = GridPlacement::own(shot, grid);
         let blocks = [compose::camera(shot, &place)?, compose::objects::camera(shot, &self.objects, &place)?];
         blocks.iter().for_each(|block| self.shader.block.update(block));
         let is_lighting = |(_, _, data): &(u32, &str, Data)| matches!(data, Data::Lighting(_));
@@ -234,7 +234,7 @@ impl Renderer {
     /// Draws one frame, unless `stop` becomes true before the last band of rows or the last planes: then there is no picture.
     ///
     /// # Errors
-    /// See [`Renderer::frame`].
+    /// See [`CardRenderer::frame`].
     pub fn frame_until(&mut self, progress: &dyn Fn(f64), stop: &AtomicBool) -> Result<Option<Picture>, GpuError> {
         let [width, height] = self.size;
         let kinds: Vec<LayerKind> =
@@ -388,7 +388,7 @@ pub(crate) struct BoundData {
 /// Uploads what a shader reads. `before` is a shader with the same bindings and its data: lists that are equal stay.
 pub(crate) fn bind_data(
     gpu: &Gpu,
-    volumes: &[Volume],
+    volumes: &[UploadedVolume],
     shader: &Shader,
     layout: &wgpu::BindGroupLayout,
     precision: Precision,

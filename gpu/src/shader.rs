@@ -5,7 +5,7 @@ mod declarations;
 mod function;
 mod halo_stages;
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::module::Module;
 use crate::{Interpolation, Precision, number};
 pub(crate) use function::write_function;
@@ -117,7 +117,7 @@ pub(crate) struct Channel {
 pub(crate) struct Shader {
     pub(crate) modules: Vec<Module>,
     pub(crate) interpolation: Interpolation,
-    pub(crate) block: Block,
+    pub(crate) block: ParamBlock,
     pub(crate) constants: Vec<(&'static str, Constant)>,
     /// Bindings of group 1.
     pub(crate) data: Vec<(u32, &'static str, Data)>,

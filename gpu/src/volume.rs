@@ -6,7 +6,7 @@ use drypoint_scene::measured::{Measured, PaddedNumbers};
 use std::sync::Arc;
 
 /// A volume as textures of numbers, uploaded once for any number of renderers.
-pub struct Volume {
+pub struct UploadedVolume {
     pub(crate) numbers: wgpu::TextureView,
     pub(crate) voxels: Option<wgpu::TextureView>,
     pub(crate) smoothed: Option<wgpu::TextureView>,
@@ -19,7 +19,7 @@ pub(crate) fn scale_exponent(measured: &Measured) -> i32 {
     exponent(measured.numbers.largest)
 }
 
-impl Volume {
+impl UploadedVolume {
     /// Uploads the numbers of a volume.
     ///
     /// # Errors

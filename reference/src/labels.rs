@@ -1,6 +1,6 @@
 //! The label of a sample ([STF-13]).
 
-use crate::field::{Cells, Place};
+use crate::field::{CellPosition, Cells};
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::other_grid::OtherGrid;
@@ -114,13 +114,13 @@ impl<'a> Labels<'a> {
     }
 
     #[inline(always)]
-    fn nearest(&self, at: Place<f64>) -> u32 {
+    fn nearest(&self, at: CellPosition<f64>) -> u32 {
         let upper = |a: usize| if at.w[a] > 0.5 { self.strides[a] } else { 0 };
         self.volume.id(self.linear(at.cell) + upper(0) + upper(1) + upper(2))
     }
 
     #[inline]
-    fn smooth(&self, at: Place<f64>) -> u32 {
+    fn smooth(&self, at: CellPosition<f64>) -> u32 {
         let start = self.linear(at.cell);
         let [dx, dy, dz] = self.strides;
         let ids: [u32; 8] =

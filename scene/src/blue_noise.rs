@@ -27,7 +27,7 @@ pub fn at(cell: [u32; 3]) -> f64 {
 /// Makes the mask anew: every rank from 0 to 32³ − 1 once, x fastest.
 pub fn void_and_cluster() -> Vec<u16> {
     let kernel = kernel();
-    let mut field = Field { energy: vec![0.0; VOXELS], is_set: vec![false; VOXELS], kernel };
+    let mut field = EnergyField { energy: vec![0.0; VOXELS], is_set: vec![false; VOXELS], kernel };
     // A tenth of the voxels at random, moved from the tightest cluster to the largest void until that changes nothing.
     for i in 0..VOXELS {
         let cell = [i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE].map(|x| x as u32);
@@ -84,13 +84,13 @@ fn kernel() -> Vec<f64> {
 const PLANES: f64 = 1.0;
 
 /// Which voxels are set, and how close each is to those.
-struct Field {
+struct EnergyField {
     energy: Vec<f64>,
     is_set: Vec<bool>,
     kernel: Vec<f64>,
 }
 
-impl Field {
+impl EnergyField {
     /// Sets a voxel, or takes it back.
     fn flip(&mut self, i: usize) {
         let sign = if self.is_set[i] { -1.0 } else { 1.0 };

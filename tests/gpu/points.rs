@@ -5,7 +5,7 @@ use crate::field::scene;
 use crate::formulas::random;
 use crate::gpu;
 use drypoint::drawing::Drawing;
-use drypoint::gpu::{GpuError, HiddenPoints, Hiding, Precision, Volume};
+use drypoint::gpu::{GpuError, HiddenPoints, Hiding, Precision, UploadedVolume};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
 use drypoint::reference::field::{Field, GradientEstimator, Kernel, Reconstruction, Rung};
@@ -56,7 +56,7 @@ pub(crate) fn compare(job: &Job, case: &Case<'_>, edit: &dyn Fn(String) -> Strin
     let points = points(job, 3000);
     let measured = surface.measured();
     let draw = || -> Result<Vec<bool>, GpuError> {
-        let volume = Volume::new(&gpu, &measured, case.precision)?;
+        let volume = UploadedVolume::new(&gpu, &measured, case.precision)?;
         let hiding = Hiding {
             volume: &job.volume,
             measured: &measured,

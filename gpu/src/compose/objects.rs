@@ -1,9 +1,9 @@
 //! Objects within the shader of their picture ([VS-2]): each part is a shader of its own, attached to the picture's.
 
 use super::{camera as camera_of, of_volume};
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::field::Scales;
-use crate::place::Place;
+use crate::place::GridPlacement;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::objects::{self, DrawnPart};
 use crate::{CardInputs, GpuError, Precision, ray, volumeshop};
@@ -21,9 +21,9 @@ struct PlacedPart {
     /// Its place among the shot's parts.
     part: usize,
     /// The place of its data.
-    place: Place,
+    place: GridPlacement,
     /// The place of the memberships of its selection, with the box in which there can be members.
-    selection: Place,
+    selection: GridPlacement,
 }
 
 impl PlacesOfObjects {
@@ -45,7 +45,7 @@ impl PlacesOfObjects {
         {
             return Err(GpuError::Material);
         }
-        let own = Place::own(shot, given.main.volume.grid());
+        let own = GridPlacement::own(shot, given.main.volume.grid());
         let placed = combination.parts.iter().enumerate().filter_map(|(i, part)| {
             let has_members = volumeshop::has_members(&combination.selections[part.object]);
             has_members.then(|| PlacedPart::new((i, part), combination, inputs, &own))
@@ -59,7 +59,7 @@ impl PlacedPart {
         (i, part): (usize, &Part),
         combination: &Combination,
         inputs: &CardInputs<'_>,
-        own: &Place,
+        own: &GridPlacement,
     ) -> Result<Self, GpuError> {
         let of_part = inputs.object(i + 1)?;
         let (world, data) = (inputs.data.main.volume.anatomy(), of_part.data.volume);
@@ -79,7 +79,7 @@ impl PlacedPart {
         Ok(Self {
             part: i,
             place: own.beside(moved(&of_data)?, data.grid().axes()),
-            selection: Place { index_box, ..in_data },
+            selection: GridPlacement { index_box, ..in_data },
         })
     }
 
@@ -156,14 +156,14 @@ pub(super) fn add(
 }
 
 /// The numbers of objects that depend on the camera, beside the volume at its own place.
-pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &Place) -> Result<Block, GpuError> {
-    let mut block = Block::default();
+pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &GridPlacement) -> Result<ParamBlock, GpuError> {
+    let mut block = ParamBlock::default();
     let Some(combination) = &shot.combination else { return Ok(block) };
     for placed in &places.0 {
         let part_shot = shot_of(shot, placed.part, &combination.parts[placed.part]);
-        let mut of_selection = Block::default();
+        let mut of_selection = ParamBlock::default();
         // Planes are counted from the volume as this camera sees it.
-        let seen = |place: &Place| Place { anchor: own.anchor, ..place.clone() };
+        let seen = |place: &GridPlacement| GridPlacement { anchor: own.anchor, ..place.clone() };
         ray::add_view(&mut of_selection, &part_shot, &seen(&placed.selection))?;
         let mut of_part = camera_of(&part_shot, &seen(&placed.place))?;
         of_part.append(&of_selection, OF_SELECTION);

@@ -6,11 +6,11 @@ pub(crate) mod lines;
 pub(crate) mod passes;
 pub(crate) mod present;
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::field::Scales;
 use crate::module::{Module, module};
 use crate::number::{COLOR, ELEMENTARY, NUMBER};
-use crate::place::Place;
+use crate::place::GridPlacement;
 use crate::shader::{Constant, Data, Shader};
 use crate::{GpuError, Precision};
 use drypoint_scene::backdrop::Backdrop;
@@ -30,7 +30,7 @@ pub(crate) const RAY: Module = module!("ray");
 pub(crate) const EYE_NORMAL: Module = module!("eye_normal");
 
 /// Adds rays and their samples.
-pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &Place) -> Result<(), GpuError> {
+pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &GridPlacement) -> Result<(), GpuError> {
     let Shot { view, lattice, .. } = shot;
     shader.add(&[RAY, module!("lattice")]);
     shader.constant("PERSPECTIVE", Constant::Bool(view.perspective));
@@ -40,8 +40,8 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &Place) -> Re
 
 /// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
 /// are of the volume's size.
-pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<(), GpuError> {
-    let (Shot { view, lattice, .. }, Place { grid, anchor, .. }) = (shot, place);
+pub(crate) fn add_view(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) -> Result<(), GpuError> {
+    let (Shot { view, lattice, .. }, GridPlacement { grid, anchor, .. }) = (shot, place);
     let planes = lattice.planes(view, grid);
     if planes > MOST_PLANES {
         return Err(GpuError::TooManyPlanes { planes: planes as u64, most: MOST_PLANES as u64 });
@@ -71,7 +71,7 @@ pub(crate) fn add_view(block: &mut Block, shot: &Shot, place: &Place) -> Result<
 }
 
 /// Adds the near distance, before which surfaces and funnels begin nothing.
-pub(crate) fn add_near(block: &mut Block, shot: &Shot, place: &Place) {
+pub(crate) fn add_near(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) {
     let Shot { view, lattice, .. } = shot;
     let near = if view.perspective { lattice.near / lattice.step - (place.anchor + 0.5) } else { -MOST_PLANES };
     block.number("near_steps", near.max(-MOST_PLANES));

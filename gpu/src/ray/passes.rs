@@ -1,6 +1,6 @@
 //! The passes of rays that are drawn each alone: all pixels, then those at edges once more.
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::buffers::{list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::{Gpu, GpuError, Precision};
@@ -70,7 +70,7 @@ impl RayPasses {
     pub(crate) fn draw(
         &self,
         canvas: &Canvas<'_>,
-        (block, precision): (&mut Block, Precision),
+        (block, precision): (&mut ParamBlock, Precision),
         further: &[(u32, &wgpu::Buffer)],
         rows: Range<usize>,
     ) -> Result<(), GpuError> {

@@ -1,14 +1,14 @@
-//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic Volume Rendering Using Stippling Techniques*, VIS 2002: points
+//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic UploadedVolume Rendering Using Stippling Techniques*, VIS 2002: points
 //! that an iso-surface hides ([STIP-15]).
 
-use crate::block::Block;
+use crate::block::ParamBlock;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
 use crate::field::Scales;
 use crate::module::module;
 use crate::ray::RAY;
 use crate::renderer::{bind_data, data_layout};
 use crate::shader::{Constant, Shader};
-use crate::{Gpu, GpuError, Precision, Volume, compose, field, ray, surface};
+use crate::{Gpu, GpuError, Precision, UploadedVolume, compose, field, ray, surface};
 use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::measured::Measured;
@@ -59,7 +59,7 @@ impl HiddenPoints {
     ///
     /// # Errors
     /// Data that do not fit, a driver that refuses.
-    pub fn new(gpu: &Gpu, volume: &Volume, hiding: &Hiding<'_>) -> Result<Self, GpuError> {
+    pub fn new(gpu: &Gpu, volume: &UploadedVolume, hiding: &Hiding<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volume, hiding, &|text| text)
     }
 
@@ -69,7 +69,7 @@ impl HiddenPoints {
     /// See [`HiddenPoints::new`].
     pub fn edited(
         gpu: &Gpu,
-        volume: &Volume,
+        volume: &UploadedVolume,
         hiding: &Hiding<'_>,
         edit: &dyn Fn(String) -> String,
     ) -> Result<Self, GpuError> {
@@ -200,9 +200,9 @@ pub(crate) fn shader(hiding: &Hiding<'_>, precision: Precision) -> Shader {
 }
 
 /// Sets the numbers of a camera.
-fn set_camera(block: &mut Block, view: &View, grid: &Grid) {
+fn set_camera(block: &mut ParamBlock, view: &View, grid: &Grid) {
     let voxel = grid.voxel();
-    let mut camera = Block::default();
+    let mut camera = ParamBlock::default();
     camera.vector("index_eye", grid.to_index(view.eye));
     camera.vector("index_forward", grid.inverse_axes() * view.forward * voxel);
     camera.vector("depth_of_index", grid.axes().transpose() * view.forward / voxel);

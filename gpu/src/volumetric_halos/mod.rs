@@ -8,7 +8,7 @@ use crate::field::Scales;
 use crate::inputs::ObjectInputs;
 use crate::module::module;
 use crate::number::{ELEMENTARY, NUMBER};
-use crate::place::Place;
+use crate::place::GridPlacement;
 use crate::ray::{EYE_NORMAL, ends_rays, layers, rounding};
 use crate::shader::{Constant, Data, HaloStages, Kept, Shader};
 use crate::{GpuError, Precision, transfer, volumeshop};
@@ -46,7 +46,7 @@ pub(crate) fn add(
     shader: &mut Shader,
     (shot, is_part): (&Shot, bool),
     own: SampleQuery,
-    (inputs, place): (&ObjectInputs<'_>, &Place),
+    (inputs, place): (&ObjectInputs<'_>, &GridPlacement),
     scales: &Scales,
     precision: Precision,
 ) -> Result<(), GpuError> {
@@ -165,7 +165,7 @@ fn add_images(shader: &mut Shader, shot: &Shot, lists: &mut Lists) {
 }
 
 /// The parameters of a halo, in the order of the shader's struct.
-fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, place: &Place, scales: &Scales) -> Vec<f64> {
+fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, place: &GridPlacement, scales: &Scales) -> Vec<f64> {
     let (seed, spread) = (&halo.seed, &halo.spread);
     let flag = |is: bool| f64::from(u8::from(is));
     let mut parameters = vec![

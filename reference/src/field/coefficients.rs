@@ -1,7 +1,7 @@
 //! Numbers on a volume's grid: the coefficients of a B-spline, with a border that continues them.
 
 use super::kernel::bspline;
-use super::place::Place;
+use super::place::CellPosition;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
 use super::tensor::{self, Rows, RowsFn, Sum};
@@ -191,7 +191,7 @@ impl<R: Real> Coefficients<R> {
 
     /// Gradient and Hessian of the cubic spline along the index axes.
     #[inline]
-    pub(super) fn cubic_derivatives(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    pub(super) fn cubic_derivatives(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
     }
 

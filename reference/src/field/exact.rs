@@ -1,7 +1,7 @@
 //! The field of a phantom itself, in place of its reconstruction from voxels: what the reconstructions converge to
 //! ([COST-2]).
 
-use super::{Cells, Place, Sampler};
+use super::{CellPosition, Cells, Sampler};
 use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::scale_by_power_of_two;
@@ -31,7 +31,7 @@ impl<'p> Exact<'p> {
         Self { phantom, grid, cells: Cells::new(grid.dims()), exponent }
     }
 
-    fn world(&self, at: Place<f64>) -> DVec3 {
+    fn world(&self, at: CellPosition<f64>) -> DVec3 {
         self.grid.to_world(DVec3::from_array(std::array::from_fn(|a| at.cell[a] as f64 + at.w[a])))
     }
 
@@ -41,19 +41,19 @@ impl<'p> Exact<'p> {
 }
 
 impl Sampler<f64> for Exact<'_> {
-    fn place(&self, p: Vec3<f64>) -> Place<f64> {
+    fn place(&self, p: Vec3<f64>) -> CellPosition<f64> {
         self.cells.locate(p)
     }
 
-    fn value_at(&self, at: Place<f64>) -> f64 {
+    fn value_at(&self, at: CellPosition<f64>) -> f64 {
         self.phantom.value(self.world(at))
     }
 
-    fn gradient_at(&self, at: Place<f64>) -> Vec3<f64> {
+    fn gradient_at(&self, at: CellPosition<f64>) -> Vec3<f64> {
         self.scaled(self.phantom.gradient(self.world(at)))
     }
 
-    fn hessian_at(&self, at: Place<f64>) -> (Vec3<f64>, Sym3<f64>) {
+    fn hessian_at(&self, at: CellPosition<f64>) -> (Vec3<f64>, Sym3<f64>) {
         let jet = self.phantom.jet(self.world(at));
         let h = |row: usize, column: usize| scale_by_power_of_two(jet.hessian.col(column)[row], -self.exponent);
         let hessian = Sym3 { xx: h(0, 0), xy: h(0, 1), xz: h(0, 2), yy: h(1, 1), yz: h(1, 2), zz: h(2, 2) };

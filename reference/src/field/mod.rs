@@ -36,8 +36,8 @@ pub use drypoint_scene::shot::{GradientEstimator, HessianEstimator, Kernel, Outs
 pub use error::FieldError;
 pub use exact::Exact;
 pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};
+pub use place::CellPosition;
 pub(crate) use place::Cells;
-pub use place::Place;
 pub use sampler::{AnySampler, Sampler, TrilinearSampler};
 
 use crate::number::{Mat3, Real, Sym3, Vec3};

@@ -4,19 +4,19 @@ use crate::number::{Real, Vec3};
 
 /// A position as its cell and the fractions in [0, 1] from the cell's first voxel on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place<R> {
+pub struct CellPosition<R> {
     /// min(⌊x⌋, max(N − 2, 0)) on each axis.
     pub cell: [usize; 3],
     /// x − cell; 0 on an axis of length 1.
     pub w: [R; 3],
 }
 
-impl<R: Real> Place<R> {
+impl<R: Real> CellPosition<R> {
     /// The place in f64.
     #[inline]
-    pub(crate) fn to_f64(self) -> Place<f64> {
+    pub(crate) fn to_f64(self) -> CellPosition<f64> {
         let [x, y, z] = self.w;
-        Place { cell: self.cell, w: [x.to_f64(), y.to_f64(), z.to_f64()] }
+        CellPosition { cell: self.cell, w: [x.to_f64(), y.to_f64(), z.to_f64()] }
     }
 }
 
@@ -49,14 +49,14 @@ impl<R: Real> Cells<R> {
 
     /// The place of a position inside the box of [SPACE-1].
     #[inline(always)]
-    pub(crate) fn locate(&self, p: Vec3<R>) -> Place<R> {
+    pub(crate) fn locate(&self, p: Vec3<R>) -> CellPosition<R> {
         let (x, y, z) = (self.along(0, p.x), self.along(1, p.y), self.along(2, p.z));
         let w = [x.1, y.1, z.1];
         let w = match self.flat {
             None => w,
             Some(flat) => [0, 1, 2].map(|a| if flat[a] { R::ZERO } else { w[a] }),
         };
-        Place { cell: [x.0, y.0, z.0], w }
+        CellPosition { cell: [x.0, y.0, z.0], w }
     }
 }
 
@@ -68,9 +68,9 @@ mod tests {
     fn the_last_voxel_belongs_to_the_last_cell_and_short_axes_have_one() {
         let cells = Cells::<f64>::new([4, 2, 1]);
         let at = |x, y, z| cells.locate(Vec3::new(x, y, z));
-        assert_eq!(at(0.0, 0.0, 0.0), Place { cell: [0, 0, 0], w: [0.0, 0.0, 0.0] });
-        assert_eq!(at(2.75, 0.5, -0.5), Place { cell: [2, 0, 0], w: [0.75, 0.5, 0.0] });
-        assert_eq!(at(3.0, 1.0, 0.5), Place { cell: [2, 0, 0], w: [1.0, 1.0, 0.0] });
+        assert_eq!(at(0.0, 0.0, 0.0), CellPosition { cell: [0, 0, 0], w: [0.0, 0.0, 0.0] });
+        assert_eq!(at(2.75, 0.5, -0.5), CellPosition { cell: [2, 0, 0], w: [0.75, 0.5, 0.0] });
+        assert_eq!(at(3.0, 1.0, 0.5), CellPosition { cell: [2, 0, 0], w: [1.0, 1.0, 0.0] });
         assert_eq!(at(-0.0, 0.0, -0.0), at(0.0, 0.0, 0.0));
     }
 

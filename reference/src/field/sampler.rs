@@ -1,7 +1,7 @@
 //! Values and derivatives at positions: the part of a field that the ray loop is compiled for.
 
 use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
-use super::place::Place;
+use super::place::CellPosition;
 use super::{Field, GradientEstimator, KernelData, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
 use drypoint_scene::glam::DVec3;
@@ -10,10 +10,10 @@ use drypoint_scene::glam::DVec3;
 /// e = [`Field::scale_exponent`] ([SPACE-4]).
 pub trait Sampler<R: Real>: Sync {
     /// The cell of a position and where in it, the same for every kernel ([REC-1]).
-    fn place(&self, p: Vec3<R>) -> Place<R>;
+    fn place(&self, p: Vec3<R>) -> CellPosition<R>;
 
     /// The value at a place, after slope and intercept.
-    fn value_at(&self, at: Place<R>) -> R;
+    fn value_at(&self, at: CellPosition<R>) -> R;
 
     /// [`value`](Self::value) at several positions, which may be computed in any order and side by side.
     #[inline(always)]
@@ -34,7 +34,7 @@ pub trait Sampler<R: Real>: Sync {
     ///
     /// # Panics
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
-    fn gradient_at(&self, at: Place<R>) -> Vec3<R>;
+    fn gradient_at(&self, at: CellPosition<R>) -> Vec3<R>;
 
     /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place except for the signs of zeros.
     /// Faster for estimators that are defined on voxels.
@@ -51,7 +51,7 @@ pub trait Sampler<R: Real>: Sync {
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
-    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>);
+    fn hessian_at(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>);
 
     /// Whether [`hessian_at`](Self::hessian_at) gives the gradient of [`gradient_at`](Self::gradient_at), bit for bit.
     #[inline(always)]
@@ -97,13 +97,13 @@ pub trait Sampler<R: Real>: Sync {
 /// A kernel: value and derivatives along the index axes, computed from the numbers that stencils read.
 pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
-    fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R;
+    fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R;
 
     /// The derivative of the kernel: `analytic`.
-    fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R>;
+    fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R>;
 
     /// First and second derivative of a kernel that is C²; for the others what `auto` takes, central differences.
-    fn second(&self, field: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn second(&self, field: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         (gradient::central::gradient(field, at), hessian::central::hessian(field, at))
     }
 }
@@ -145,7 +145,7 @@ pub(super) use with_kernel;
 impl<R: Real> Field<'_, R> {
     /// The gradient of the numbers along the index axes by an estimator that is the same for every kernel.
     #[inline(always)]
-    pub(super) fn estimated_gradient(&self, at: Place<R>) -> Vec3<R> {
+    pub(super) fn estimated_gradient(&self, at: CellPosition<R>) -> Vec3<R> {
         match (self.how.gradient, &self.regression) {
             (GradientEstimator::Sobel, _) => gradient::sobel::gradient(self, at),
             (GradientEstimator::Regression, Some(regression)) => regression.gradient(self, at),
@@ -158,7 +158,7 @@ impl<R: Real> Field<'_, R> {
 
     /// Gradient and Hessian of the numbers along the index axes by an estimator that is the same for every kernel.
     #[inline(always)]
-    pub(super) fn estimated_second(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    pub(super) fn estimated_second(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         match &self.second {
             Second::Gaussian(coefficients) => coefficients.cubic_derivatives(at),
             Second::NotPrepared => panic!("a field prepared without Rung::Hessian was asked for a Hessian"),
@@ -168,13 +168,13 @@ impl<R: Real> Field<'_, R> {
 
     /// The number at a place, before slope and intercept. It is compiled once for each number type.
     #[inline(never)]
-    fn number(&self, at: Place<R>) -> R {
+    fn number(&self, at: CellPosition<R>) -> R {
         with_kernel!(self, |kernel| kernel.value(self, at))
     }
 
     /// The gradient of the numbers along the index axes.
     #[inline(always)]
-    pub(super) fn index_gradient(&self, at: Place<R>) -> Vec3<R> {
+    pub(super) fn index_gradient(&self, at: CellPosition<R>) -> Vec3<R> {
         match self.how.gradient {
             GradientEstimator::Analytic => self.analytic_gradient(at),
             _ => self.estimated_gradient(at),
@@ -183,13 +183,13 @@ impl<R: Real> Field<'_, R> {
 
     /// The kernel's own derivative. It is compiled once for each number type.
     #[inline(never)]
-    fn analytic_gradient(&self, at: Place<R>) -> Vec3<R> {
+    fn analytic_gradient(&self, at: CellPosition<R>) -> Vec3<R> {
         with_kernel!(self, |kernel| kernel.gradient(self, at))
     }
 
     /// Gradient and Hessian of the numbers along the index axes. They are compiled once for each number type.
     #[inline(never)]
-    pub(super) fn index_second(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    pub(super) fn index_second(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         match self.second {
             Second::Analytic => with_kernel!(self, |kernel| kernel.second(self, at)),
             _ => self.estimated_second(at),
@@ -222,12 +222,12 @@ impl<R: Real> Field<'_, R> {
 
 impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
     #[inline(always)]
-    fn place(&self, p: Vec3<R>) -> Place<R> {
+    fn place(&self, p: Vec3<R>) -> CellPosition<R> {
         self.0.cells.locate(p)
     }
 
     #[inline(always)]
-    fn value_at(&self, at: Place<R>) -> R {
+    fn value_at(&self, at: CellPosition<R>) -> R {
         self.0.to_value(Trilinear.value(self.0, at))
     }
 
@@ -246,7 +246,7 @@ impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
+    fn gradient_at(&self, at: CellPosition<R>) -> Vec3<R> {
         let index = match self.0.how.gradient {
             GradientEstimator::Analytic => Trilinear.gradient(self.0, at),
             _ => self.0.estimated_gradient(at),
@@ -275,7 +275,7 @@ impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
     }
 
     #[inline(always)]
-    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn hessian_at(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         self.0.hessian_at(at)
     }
 }
@@ -284,12 +284,12 @@ impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
 /// kernel.
 impl<R: Real> Sampler<R> for Field<'_, R> {
     #[inline(always)]
-    fn place(&self, p: Vec3<R>) -> Place<R> {
+    fn place(&self, p: Vec3<R>) -> CellPosition<R> {
         self.cells.locate(p)
     }
 
     #[inline]
-    fn value_at(&self, at: Place<R>) -> R {
+    fn value_at(&self, at: CellPosition<R>) -> R {
         match &self.formula {
             Some(exact) => R::from_f64(exact.value_at(at.to_f64())),
             None => self.to_value(self.number(at)),
@@ -312,7 +312,7 @@ impl<R: Real> Sampler<R> for Field<'_, R> {
     }
 
     #[inline]
-    fn gradient_at(&self, at: Place<R>) -> Vec3<R> {
+    fn gradient_at(&self, at: CellPosition<R>) -> Vec3<R> {
         match &self.formula {
             Some(exact) => Vec3::from_glam(exact.gradient_at(at.to_f64()).to_glam()),
             None => self.to_world.apply(self.index_gradient(at)),
@@ -340,7 +340,7 @@ impl<R: Real> Sampler<R> for Field<'_, R> {
     }
 
     #[inline]
-    fn hessian_at(&self, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn hessian_at(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         if let Some(exact) = &self.formula {
             let (g, Sym3 { xx, xy, xz, yy, yz, zz }) = exact.hessian_at(at.to_f64());
             let [xx, xy, xz, yy, yz, zz] = [xx, xy, xz, yy, yz, zz].map(R::from_f64);

@@ -12,7 +12,7 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 /// No position in a visible brick is outside the intervals of its ray that the BVH gives. A position in an invisible
 /// one may be inside them: its sample is evaluated, shows nothing, and changes no bit.
 pub struct BrickOccupancy {
-    nodes: Vec<Node>,
+    nodes: Vec<TreeNode>,
     /// A bound on the coordinates inside the volume, for the rounding of positions.
     reach: f64,
 }
@@ -20,7 +20,7 @@ pub struct BrickOccupancy {
 /// A node of the tree, in f64: the boxes have whole and half numbers for ends, so f32 builds them exactly up to 2²³, and
 /// the walk need not convert.
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct TreeNode {
     /// Lowest and highest index coordinate on each axis.
     ends: [[f64; 2]; 3],
     /// The first of two children side by side; 0, which is nobody's child, for a leaf.
@@ -29,7 +29,7 @@ struct Node {
 
 /// A box of bricks, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Block {
+struct BrickBox {
     lo: [usize; 3],
     hi: [usize; 3],
 }
@@ -55,7 +55,8 @@ impl BrickOccupancy {
     /// mostly come before farther ones.
     pub fn boxes_in(&self, beam: &Beam) -> RayIntervals {
         let mut boxes = RayIntervals { reach: self.reach, ..RayIntervals::default() };
-        let mut open: Vec<&Node> = self.nodes.first().into_iter().filter(|root| beam.can_meet(&root.ends)).collect();
+        let mut open: Vec<&TreeNode> =
+            self.nodes.first().into_iter().filter(|root| beam.can_meet(&root.ends)).collect();
         while let Some(node) = open.pop() {
             if node.children == 0 {
                 boxes.ends.push(node.ends);
@@ -188,10 +189,10 @@ impl Beam {
 const INDEX_SCALE: f64 = 1_048_576.0;
 
 /// A BVH over boxes, of which there is at least one.
-fn tree(boxes: &[Aabb]) -> Vec<Node> {
+fn tree(boxes: &[Aabb]) -> Vec<TreeNode> {
     let indices = (0..boxes.len() as u32).collect();
     let built = PlocBuilder::new().build(PlocSearchDistance::Low, boxes, indices, SortPrecision::U64, 0);
-    let node = |n: &Bvh2Node| Node {
+    let node = |n: &Bvh2Node| TreeNode {
         ends: [0, 1, 2].map(|a| [f64::from(n.aabb().min[a]), f64::from(n.aabb().max[a])]),
         children: if n.is_leaf() { 0 } else { n.first_index },
     };
@@ -275,7 +276,7 @@ pub(super) fn merge(intervals: &mut Vec<[f64; 2]>) {
 
 /// The box of a block in index space, in f32, grown outwards. The first and the last block of an axis reach half a voxel
 /// farther, for the box of an axis of length 1.
-fn bounds(block: &Block, dims: [usize; 3]) -> Aabb {
+fn bounds(block: &BrickBox, dims: [usize; 3]) -> Aabb {
     let lo = block.lo.map(|i| if i == 0 { -0.5 } else { (i * BRICK) as f32 }.next_down());
     let hi = std::array::from_fn::<f32, 3, _>(|a| {
         let end = ((block.hi[a] + 1) * BRICK) as f32;
@@ -285,18 +286,18 @@ fn bounds(block: &Block, dims: [usize; 3]) -> Aabb {
 }
 
 /// Joins visible bricks to disjoint boxes: runs along x, equal runs of neighbouring rows, equal sheets of rows.
-fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<Block> {
+fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<BrickBox> {
     let mut done = Vec::new();
-    let mut sheets: Vec<Block> = Vec::new();
+    let mut sheets: Vec<BrickBox> = Vec::new();
     for z in 0..nz {
-        let mut rows: Vec<Block> = Vec::new();
-        let mut open: Vec<Block> = Vec::new();
+        let mut rows: Vec<BrickBox> = Vec::new();
+        let mut open: Vec<BrickBox> = Vec::new();
         for y in 0..ny {
             let mut next = Vec::new();
             for run in runs(&visible[(z * ny + y) * nx..][..nx]) {
-                let fresh = Block { lo: [run[0], y, z], hi: [run[1], y, z] };
+                let fresh = BrickBox { lo: [run[0], y, z], hi: [run[1], y, z] };
                 next.push(match open.iter().position(|b| b.lo[0] == run[0] && b.hi[0] == run[1]) {
-                    Some(i) => Block { hi: fresh.hi, ..open.swap_remove(i) },
+                    Some(i) => BrickBox { hi: fresh.hi, ..open.swap_remove(i) },
                     None => fresh,
                 });
             }
@@ -306,9 +307,9 @@ fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<Block> {
         rows.append(&mut open);
         let mut next = Vec::new();
         for row in rows {
-            let same = |b: &Block| b.lo[..2] == row.lo[..2] && b.hi[..2] == row.hi[..2];
+            let same = |b: &BrickBox| b.lo[..2] == row.lo[..2] && b.hi[..2] == row.hi[..2];
             next.push(match sheets.iter().position(same) {
-                Some(i) => Block { hi: row.hi, ..sheets.swap_remove(i) },
+                Some(i) => BrickBox { hi: row.hi, ..sheets.swap_remove(i) },
                 None => row,
             });
         }

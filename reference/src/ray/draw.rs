@@ -5,7 +5,7 @@ use super::composite::{Cast, Sums};
 use super::lattice::IndexRay;
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
-use super::progress::Progress;
+use super::progress::FrameProgress;
 use super::tile_work::{CastAll, TileRays, TileWork};
 use crate::number::Real;
 use drypoint_scene::backdrop::Backdrop;
@@ -51,14 +51,14 @@ pub(super) struct Band {
     /// Its tiles, in the order of the picture's.
     pub(super) tiles: Range<usize>,
     /// Its rays.
-    pub(super) region: Region,
+    pub(super) region: RayRect,
     /// Converts the share of the band that is done to the picture's.
     pub(super) share: [f64; 2],
 }
 
 /// A rectangle of rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Region {
+pub(super) struct RayRect {
     /// Column and row of its first ray.
     pub(super) first: [usize; 2],
     /// Rays across and down.
@@ -67,7 +67,7 @@ pub(super) struct Region {
     side: usize,
 }
 
-impl Region {
+impl RayRect {
     /// The columns and the rows of a tile of the region, each from and up to, the latter excluded.
     pub(super) fn tile(&self, index: usize) -> [[usize; 2]; 2] {
         let across = self.size[0].div_ceil(self.side);
@@ -96,7 +96,7 @@ pub(super) fn draw<R: Real>(
     casting: &Casting<'_>,
     background: Backdrop<'_>,
     [tile, band]: [usize; 2],
-    progress: Progress<'_>,
+    progress: FrameProgress<'_>,
 ) -> (Picture, Vec<Option<Box<Sums>>>, Counts) {
     let [width, height] = prepared.view.size;
     let [across, down] = tiles_across(prepared, tile);
@@ -122,7 +122,7 @@ pub(super) fn draw<R: Real>(
             Casting::ByTile(_) => Vec::new(),
             Casting::ByBand(cast) => {
                 let rows = [first, batch.end].map(|tile_index| (tile_index / across * tile).min(height) * n);
-                let region = Region { first: [0, rows[0]], size: [width * n, rows[1] - rows[0]], side: tile * n };
+                let region = RayRect { first: [0, rows[0]], size: [width * n, rows[1] - rows[0]], side: tile * n };
                 cast(Band { tiles: batch.clone(), region, share })
             }
         };

@@ -11,7 +11,7 @@ use super::prepared_halos::PreparedHalos;
 use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
-use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, Shader};
+use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, SampleShader};
 use crate::field::{Field, Reconstruction, Rung, quantile_of_norms};
 use crate::labels::Labels;
 use crate::number::{Mat3, Real, Vec3};
@@ -59,9 +59,9 @@ pub(super) fn prepare<'a, R: Real>(
     let collects = shot.layers.iter().any(|&layer| asks_samples(layer));
     let encode = shot.blend_space == BlendSpace::Srgb;
     let camera = Camera { view: &shot.view, rays_across: shot.rays_across, voxel: volume.grid().voxel() };
-    let place = Place { grid: volume.grid().clone(), moved: None };
+    let place = MovedGrid { grid: volume.grid().clone(), moved: None };
     let mut prepared = prepare_object((object, &shot.clipping), data, place, field, &camera, &mut fields, counts)?;
-    let plain = matches!(prepared.shader, Shader::Regular { .. });
+    let plain = matches!(prepared.shader, SampleShader::Regular { .. });
     let more = !plain
         || prepared.table.is_some()
         || prepared.over_two.is_some()
@@ -166,7 +166,7 @@ pub(super) struct Camera<'c> {
 }
 
 /// The place where a volume is drawn.
-pub(super) struct Place<R> {
+pub(super) struct MovedGrid<R> {
     /// The grid of the volume there.
     pub(super) grid: Grid,
     /// L_Tᵀ; none where the volume is not moved.
@@ -177,7 +177,7 @@ pub(super) struct Place<R> {
 pub(super) fn prepare_object<'a, R: Real>(
     (object, clipping): (&Object, &Clipping),
     data: &ObjectData<'a>,
-    place: Place<R>,
+    place: MovedGrid<R>,
     field: Field<'a, R>,
     camera: &Camera<'_>,
     fields: &mut Fields<'a, R>,
@@ -200,7 +200,7 @@ pub(super) fn prepare_object<'a, R: Real>(
     // The styles of caps follow those of the function.
     let of_function = data.styles.len().saturating_sub(clipping.styles.len());
     let (styles, of_caps) = data.styles.split_at(of_function);
-    let shader = Shader::new(object, camera.view, camera.rays_across, styles, camera.voxel)?;
+    let shader = SampleShader::new(object, camera.view, camera.rays_across, styles, camera.voxel)?;
     if let Some(bytes) = shader.mipmap_bytes() {
         counts.bytes.insert("style_mipmaps".into(), bytes as u64);
     }

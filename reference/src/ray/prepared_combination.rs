@@ -3,7 +3,7 @@
 use super::composite::depth_of_part;
 use super::error::RenderError;
 use super::lattice::{IndexRay, samples_in_box};
-use super::prepare::{Camera, Fields, Place, prepare_object};
+use super::prepare::{Camera, Fields, MovedGrid, prepare_object};
 use super::prepared::Prepared;
 use super::prepared_seeds::{PreparedSeeds, can_seed_at};
 use super::sample::PreparedObject;
@@ -319,7 +319,7 @@ impl<'v, R: Real> PreparedPart<'v, R> {
         let moved = (grid.axes() != volume.grid().axes()).then(|| Mat3::from_glam(to_data.transpose()));
         let field = fields.of(volume, object)?;
         let bricks = object.skip_empty.then(|| PartBricks::new(&field, (part, object)));
-        let place = Place { grid, moved };
+        let place = MovedGrid { grid, moved };
         let prepared = prepare_object((object, &part.clipping), data, place, field, camera, fields, counts)?;
         let is_moved = motion.is_some();
         let of_alpha = prepared.over_two.as_ref().map(|over_two| over_two.first);

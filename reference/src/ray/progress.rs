@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The progress of a frame or of a part of it.
 #[derive(Clone, Copy)]
-pub(crate) struct Progress<'p> {
+pub(crate) struct FrameProgress<'p> {
     /// Hears the share of the frame that is done, from any thread.
     pub(crate) hear: &'p (dyn Fn(f64) + Sync),
     /// The flag that stops the frame.
@@ -15,7 +15,7 @@ pub(crate) struct Progress<'p> {
     pub(crate) between: [f64; 2],
 }
 
-impl Progress<'_> {
+impl FrameProgress<'_> {
     /// The progress of a part between two shares of this one.
     pub(crate) fn part(self, shares: [f64; 2]) -> Self {
         let between = shares.map(|share| self.of_frame(share));

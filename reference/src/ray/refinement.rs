@@ -7,7 +7,7 @@ use super::composite::{Sums, covering_objects};
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
 use super::pixel_sum::PixelSum;
 use super::prepared::Prepared;
-use super::progress::Progress;
+use super::progress::FrameProgress;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 use drypoint_scene::backdrop::Backdrop;
@@ -42,7 +42,7 @@ pub(super) fn draw_refined<R: Real>(
     cast_all: &dyn CastAll,
     background: Backdrop<'_>,
     side: usize,
-    progress: Progress<'_>,
+    progress: FrameProgress<'_>,
 ) -> (Picture, Counts) {
     // The first picture, half of the progress. It has a beauty, by which edges are found.
     let mut layers = prepared.layers.clone();

@@ -9,7 +9,7 @@ use super::merged;
 use super::pick::{Picked, pick};
 use super::prepare::{gradient_range, prepare, turn};
 use super::prepared::Prepared;
-use super::progress::Progress;
+use super::progress::FrameProgress;
 use super::refinement::{bytes_a_pixel, draw_refined};
 use super::tile_work::TileWork;
 use crate::field::Sampler;
@@ -116,15 +116,7 @@ impl<'a> Renderer<'a> {
         };
         let labels = inputs.main.labels;
         let labels = labels.map(|labels| Labels::new(labels, volume.grid(), volume.anatomy(), object.label_lookup));
-        Self {
-            ready,
-            background: inputs.background,
-            labels,
-            counts,
-            tile: TILE,
-            band: BAND,
-            order,
-        }
+        Self { ready, background: inputs.background, labels, counts, tile: TILE, band: BAND, order }
     }
 
     /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
@@ -232,19 +224,19 @@ impl<'a> Renderer<'a> {
     /// Renders a further frame, with the counts of the frame alone.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let [stop, stopped] = [false; 2].map(AtomicBool::new);
-        self.drawn(Progress { hear: progress, stop: &stop, stopped: &stopped, between: [0.0, 1.0] })
+        self.drawn(FrameProgress { hear: progress, stop: &stop, stopped: &stopped, between: [0.0, 1.0] })
     }
 
     /// Renders a further frame, unless `stop` becomes true before all is drawn: then nothing more is drawn, and there is no
     /// picture.
     pub fn again_until(&self, progress: &(dyn Fn(f64) + Sync), stop: &AtomicBool) -> Option<(Picture, Counts)> {
         let stopped = AtomicBool::new(false);
-        let drawn = self.drawn(Progress { hear: progress, stop, stopped: &stopped, between: [0.0, 1.0] });
+        let drawn = self.drawn(FrameProgress { hear: progress, stop, stopped: &stopped, between: [0.0, 1.0] });
         (!stopped.into_inner()).then_some(drawn)
     }
 
     /// Draws a frame, or as much of it as is drawn before it is stopped.
-    fn drawn(&self, progress: Progress<'_>) -> (Picture, Counts) {
+    fn drawn(&self, progress: FrameProgress<'_>) -> (Picture, Counts) {
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
             Ready::F32(p) => self.draw(p, &p.object.field, progress),
@@ -273,7 +265,7 @@ impl<'a> Renderer<'a> {
         &self,
         prepared: &Prepared<'_, R>,
         sampler: &S,
-        progress: Progress<'_>,
+        progress: FrameProgress<'_>,
     ) -> (Picture, Counts) {
         let alone = |work: TileWork<'_>| ray_order::cast_all(prepared, sampler, work);
         let draw = |casting: Casting<'_>| {

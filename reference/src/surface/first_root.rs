@@ -3,7 +3,7 @@
 use super::active::ActiveBricks;
 use super::cubic::{BernsteinCubic, bracketed, mix};
 use super::traversal::{CellBox, CellTraversal, IndexLine};
-use crate::field::{Field, Place, Sampler};
+use crate::field::{CellPosition, Field, Sampler};
 use crate::number::Real;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
@@ -135,7 +135,8 @@ impl RootFinder {
                 }
             }
             None => {
-                let value = |w: [f64; 3]| self.over(field.value_at(Place { cell: walk.cell(), w: w.map(R::from_f64) }));
+                let value =
+                    |w: [f64; 3]| self.over(field.value_at(CellPosition { cell: walk.cell(), w: w.map(R::from_f64) }));
                 // Other kernels: equidistant values, and a bracketed root at the first change of sign.
                 let steps = (length * (leaves - enters) / STEP).ceil().max(1.0);
                 let (mut from, mut at_from) = (enters, value(walk.entry()));

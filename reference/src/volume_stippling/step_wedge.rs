@@ -66,7 +66,7 @@ mod tests {
         let dots = even_dots(side, lambda, 7, 0);
         let wanted = lambda * side * side;
         assert!((dots.len() as f64 - wanted).abs() < 0.05 * wanted, "{}", dots.len());
-        let apart = |i: usize| dots[..i].iter().map(move |dot| dot.distance(dots[i])).fold(f64::INFINITY, f64::min);
+        let apart = |i: usize| dots[..i].iter().fold(f64::INFINITY, |least: f64, dot| least.min(dot.distance(dots[i])));
         let nearest = (0..dots.len()).map(apart).fold(f64::INFINITY, f64::min);
         assert!(nearest > 0.4 / lambda.sqrt(), "{nearest}");
         assert!(even_dots(side, 0.0, 7, 0).is_empty());

@@ -82,7 +82,7 @@ pub(crate) struct Key<S: 'static> {
     /// Quantities that the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
     pub(crate) needs: &'static [Quantity],
     /// How it is read and written.
-    pub(crate) field: &'static dyn Field<S>,
+    pub(crate) field: &'static dyn KeyAccess<S>,
 }
 
 impl<S> Key<S> {
@@ -91,7 +91,7 @@ impl<S> Key<S> {
         name: &'static str,
         tag: &'static str,
         doc: &'static str,
-        field: &'static dyn Field<S>,
+        field: &'static dyn KeyAccess<S>,
     ) -> Self {
         Self { name, doc, tag, absent: "", required: false, needs: &[], field }
     }
@@ -178,7 +178,7 @@ pub(crate) trait Kind: Shape {
 }
 
 /// A key's way into a table's struct and back, whatever type lies between.
-pub(crate) trait Field<S>: Sync {
+pub(crate) trait KeyAccess<S>: Sync {
     /// Reads an item into the struct, or says what is wrong with it.
     fn read(&self, item: &Item, into: &mut S, check: &mut Check);
     /// The key's value; none where it has none.
@@ -196,7 +196,7 @@ pub(crate) struct Slot<S, K: Kind> {
     pub(crate) set: fn(&mut S, K::Of),
 }
 
-impl<S, K: Kind> Field<S> for Slot<S, K> {
+impl<S, K: Kind> KeyAccess<S> for Slot<S, K> {
     fn read(&self, item: &Item, into: &mut S, check: &mut Check) {
         let value = match (self.get)(into) {
             Some(supplied) if item.is_way => self.kind.read_over(item, supplied, check),

@@ -1,7 +1,7 @@
 //! Transcendental functions.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::scene::color;
 use drypoint::scene::math;
 
@@ -19,7 +19,11 @@ fn opacities() -> Vec<f64> {
 fn logarithms_of_transmittances_keep_their_digits() {
     let Some(gpu) = gpu() else { return };
     let table: Vec<[f64; 1]> = opacities().into_iter().filter(|&a| a < 1.0).map(|a| [a]).collect();
-    let kernel = Kernel { modules: modules(&["number/math"]), results: &["ln_one_minus(x[0])"], ..Kernel::default() };
+    let kernel = ShaderKernel {
+        modules: modules(&["number/math"]),
+        results: &["ln_one_minus(x[0])"],
+        ..ShaderKernel::default()
+    };
     let found = errors(&gpu, &kernel, &table, |&[a]| [(-a).ln_1p()], |_, t, _| t[0].abs().max(1e-300));
     println!("ln(1 − α): {found:?}");
     assert!(found[0] <= 4.0 * ULP[0] && found[1] <= 4.0 * ULP[1], "{found:?}");
@@ -30,10 +34,10 @@ fn exponentials() {
     let Some(gpu) = gpu() else { return };
     let table: Vec<[f64; 1]> =
         (0..4000).map(|i| [-f64::from(i) * 0.0211]).chain((1..60).map(|e| [-0.5f64.powi(e)])).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/math"]),
         results: &["one_minus_exp(x[0])", "exp_of(x[0])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[y]: &[f64; 1]| [-y.exp_m1(), y.exp()];
     let found = errors(&gpu, &kernel, &table, truth, |_, t, i| t[i].abs().max(1e-37));
@@ -48,7 +52,8 @@ fn powers() {
     let Some(gpu) = gpu() else { return };
     let mut next = random(7);
     let table: Vec<[f64; 2]> = (0..4000).map(|_| [next().powi(4) + 1e-9, 0.3 + 2.5 * next()]).collect();
-    let kernel = Kernel { modules: modules(&["number/math"]), results: &["power(x[0], x[1])"], ..Kernel::default() };
+    let kernel =
+        ShaderKernel { modules: modules(&["number/math"]), results: &["power(x[0], x[1])"], ..ShaderKernel::default() };
     let scale = |&[x, y]: &[f64; 2], t: &[f64; 1], _| t[0] * (1.0 + (y * x.ln()).abs());
     let found = errors(&gpu, &kernel, &table, |&[x, y]| [x.powf(y)], scale);
     println!("x^y: {found:?}");
@@ -59,13 +64,17 @@ fn powers() {
 fn logarithms_and_angles() {
     let Some(gpu) = gpu() else { return };
     let mut next = random(3);
-    let kernel =
-        Kernel { modules: modules(&["number/math"]), results: &["log2_of(x[0])", "ln(x[0])"], ..Kernel::default() };
+    let kernel = ShaderKernel {
+        modules: modules(&["number/math"]),
+        results: &["log2_of(x[0])", "ln(x[0])"],
+        ..ShaderKernel::default()
+    };
     let table: Vec<[f64; 1]> = (0..4000).map(|_| [((next() - 0.5) * 60.0).exp()]).collect();
     let found = errors(&gpu, &kernel, &table, |&[x]| [math::log2(x), x.ln()], |_, t, i| t[i].abs().max(1.0));
     println!("log₂, ln: {found:?}");
     assert!(found[0] <= 4.0 * ULP[0] && found[1] <= 4.0 * ULP[1], "{found:?}");
-    let kernel = Kernel { modules: modules(&["number/math"]), results: &["angle(x[0], x[1])"], ..Kernel::default() };
+    let kernel =
+        ShaderKernel { modules: modules(&["number/math"]), results: &["angle(x[0], x[1])"], ..ShaderKernel::default() };
     let random = (0..4000).map(|_| [next().powi(5), next() - 0.5]);
     let hard = [[0.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 0.0], [1.0, 1.0], [1.0, -1.0], [1e-30, 1.0], [1e-7, -1.0]];
     let table: Vec<[f64; 2]> = random.chain(hard).collect();
@@ -77,10 +86,10 @@ fn logarithms_and_angles() {
 #[test]
 fn the_curves_of_srgb() {
     let Some(gpu) = gpu() else { return };
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/math", "number/color"]),
         results: &["linear_to_srgb(x[0])", "srgb_to_linear(x[0])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     // The kinks apart: f32 can fall on the other side.
     let table: Vec<[f64; 1]> =

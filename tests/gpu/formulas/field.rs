@@ -1,7 +1,7 @@
 //! Curvatures, and roots of cubics.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::reference::field::Outside;
 use drypoint::reference::field::curvature::{along_view, principal};
 use drypoint::reference::number::{Sym3, Vec3};
@@ -33,7 +33,7 @@ fn curvatures() {
         v.cross(g).length() / g.length()
     };
     table.retain(|row| across(row) == 0.0 || across(row) > 1e-3);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&[
             "number/arithmetic",
             "field/gradient/still",
@@ -56,7 +56,7 @@ fn curvatures() {
             let shape = world_shape(g, second);
             let k = principal_curvatures(shape);",
         results: &["curvature_along_view(shape, vec3<real>(x[9], x[10], x[11]))", "k.x", "k.y"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &Row| {
         let (g, h, v) = parts(row);
@@ -93,11 +93,11 @@ fn first_roots_of_cubics() {
         cell_cubic = b;";
     let along = "var<private> cell_cubic: vec4<real>;
         fn along_cell(u: real) -> real { return cubic_at(cell_cubic, u); }";
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["surface/cubic", "surface/cubic_bracket"]) + along,
         before: cubic,
         results: &["first_root_of(b)"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 3]| [row.iter().copied().filter(|r| (0.0..=1.0).contains(r)).fold(2.0, f64::min)];
     let scale = |&[r, s, t]: &[f64; 3], &[root]: &[f64; 1], _| {

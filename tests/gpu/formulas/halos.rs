@@ -1,7 +1,7 @@
 //! Volumetric halos.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::{Gpu, Kernel};
+use drypoint::gpu::{Gpu, ShaderKernel};
 use drypoint::reference::style_transfer_functions::contour;
 use drypoint::reference::volumetric_halos::seed::{SeedNormal, SeedPlace, Seeding};
 use drypoint::reference::volumetric_halos::{DirectionInfluence, FocusInfluence, HaloProfile};
@@ -84,11 +84,11 @@ fn strengths(gpu: &Gpu, a: f64, side: SeedSide, [by_curvature, side_number]: [f6
         ("side", side_number),
         ("most_frontal", 2.0),
     ]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: seed_formulas(),
         lists: &[(30, &list)],
         results: &["seed_strength(0, x[0], x[1], x[2], x[3])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let seeding = Seeding::new(&params(seed(a, side))).unwrap();
     let truth = |&[h, n_dot_v, magnitude, kappa]: &[f64; 4]| {
@@ -104,11 +104,11 @@ fn strengths(gpu: &Gpu, a: f64, side: SeedSide, [by_curvature, side_number]: [f6
 fn floors_of_seeds() {
     let Some(gpu) = gpu() else { return };
     let list = parameters(&[("side", 1.0), ("most_frontal", 0.9), ("floor", 0.25)]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: seed_formulas(),
         lists: &[(30, &list)],
         results: &["seed_strength(0, x[0], x[1], 0.5, 0.0)"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let table = [[1.0, 0.5], [1.0, 0.8], [0.5, 0.5], [0.25, 0.25], [1.0, 0.95], [0.75, 0.625]];
     let truth = |&[h, n_dot_v]: &[f64; 2]| {
@@ -130,12 +130,12 @@ fn influences_of_values() {
         .collect();
     let halo = parameters(&[("value", 2.0), ("nodes", 5.0)]);
     let opacity = "var<private> seed_alpha_u: real;\nstruct Sample { s: real, }\n";
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/arithmetic", "volumetric_halos/halos", "volumetric_halos/seed_value"]) + opacity,
         lists: &[(30, &halo), (31, &list)],
         before: "let sample = Sample(x[0]);",
         results: &["by_value(0, sample, 1.0)"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let mut next = random(22);
     let mut table: Vec<[f64; 1]> = (0..1000).map(|_| [1.2 * next() - 0.1]).collect();
@@ -159,7 +159,7 @@ fn influences_of_places() {
         let at = &vertices[..points];
         let list: Vec<f64> = at.iter().flatten().copied().collect();
         let halo = parameters(&[("points", points as f64), ("inner", inner), ("falloff", falloff)]);
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: modules(&["number/arithmetic", "volumetric_halos/halos", "volumetric_halos/focus"])
                 + "struct Sample { position: vec3<real>, }",
             vectors: &[
@@ -170,7 +170,7 @@ fn influences_of_places() {
             lists: &[(30, &halo), (31, &list)],
             before: "let sample = Sample(vec3<real>(x[0], x[1], x[2]));",
             results: &["by_focus(0, sample, 0.5)"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let mut next = random(23);
         let mut table: Vec<[f64; 3]> = (0..2000).map(|_| std::array::from_fn(|_| 20.0 * next() - 5.0)).collect();
@@ -191,7 +191,7 @@ fn influences_of_directions() {
     for (toward, width, softness) in [(90.0, 60.0, 20.0), (-200.0, 0.0, 180.0), (359.0, 200.0, 90.0)] {
         let turn = f64::to_radians(f64::rem_euclid(toward, 360.0));
         let whole = modules(&["volumetric_halos/direction"]);
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: modules(&["number/math"]) + &whole[..whole.find("fn seed_direction").unwrap()],
             params: &[
                 ("toward_x", math::sin(turn)),
@@ -201,7 +201,7 @@ fn influences_of_directions() {
             ],
             before: "let toward = vec2<real>(params.toward_x, params.toward_y);",
             results: &["direction_at(vec2<real>(x[0], x[1]), toward, params.half_width, params.softness)"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let mut table: Vec<[f64; 2]> = (0..2000).map(|_| [2.0 * next() - 1.0, 2.0 * next() - 1.0]).collect();
         table.extend([[0.0, 1.0], [0.0, -1.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 0.0], [1e-9, 0.0], [1e-5, 1e-5]]);
@@ -228,13 +228,13 @@ fn profiles() {
     let mut table: Vec<[f64; 1]> = (0..1000).map(|_| [next()]).collect();
     table.extend([[0.0], [0.125], [0.5], [1.0], [1e-20]]);
     for (blend, encode) in [("blend_linear", false), ("blend_srgb", true)] {
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: modules(&["number/math", "number/color", "ray/accumulator", &format!("ray/{blend}")])
                 + &modules(&["volumetric_halos/halos", "volumetric_halos/profile"]),
             lists: &[(30, &halo), (31, &list)],
             before: "let c = profile_at(0, x[0]);",
             results: &["select(real(0.0), c.r, c.a > 0.0)", "select(real(0.0), c.b, c.a > 0.0)", "c.a"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let profile = HaloProfile::new(&nodes, 0.75, encode);
         let truth = |&[h]: &[f64; 1]| profile.at(h).map_or([0.0; 3], |(rgb, opacity)| [rgb[0], rgb[2], opacity]);
@@ -248,12 +248,12 @@ fn profiles() {
 fn tints() {
     let Some(gpu) = gpu() else { return };
     let whole = modules(&["volumetric_halos/halo_planes_tint"]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: whole[..whole.find("// The tint of all occlusive halos").unwrap()].to_owned(),
         before: "let first = mix_in(Tint(1.0, vec3<real>()), vec3<real>(x[0]), x[1]);
             let both = mix_in(first, vec3<real>(x[2]), x[3]);",
         results: &["tinted(vec3<real>(x[4]), first).x", "tinted(vec3<real>(x[4]), both).y"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let mut next = random(26);
     let table: Vec<[f64; 5]> = (0..1000).map(|_| std::array::from_fn(|_| next())).collect();
@@ -270,10 +270,10 @@ fn spreading() {
     let Some(gpu) = gpu() else { return };
     let whole = modules(&["volumetric_halos/spreading"]);
     let from = whole.find("// H_i = delta F_i").unwrap();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: whole[from..whole.find("// A pass of four halos").unwrap()].to_owned(),
         results: &["spread(x[0], x[1], x[2])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let mut next = random(27);
     let mut table: Vec<[f64; 3]> = (0..1000).map(|_| std::array::from_fn(|_| next())).collect();
@@ -293,10 +293,10 @@ fn medians() {
         format!("ordered_column(vec4<real>(x[{a}]), vec4<real>(x[{b}]), vec4<real>(x[{c}]))")
     };
     let result = format!("median_of_nine({}, {}, {}).z", column(0), column(1), column(2));
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: whole[from..whole.find("fn seed_column").unwrap()].to_owned(),
         results: &[&result],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let mut table: Vec<[f64; 9]> = (0..512u32).map(|bits| std::array::from_fn(|i| f64::from(bits >> i & 1))).collect();
     let mut next = random(28);
@@ -315,10 +315,10 @@ fn ends_of_groups() {
     let Some(gpu) = gpu() else { return };
     let whole = modules(&["volumetric_halos/halo_planes_images"]);
     let from = whole.find("// Whether a group of M planes").unwrap();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: whole[from..whole.find("// The pixel that a ray of the images").unwrap()].to_owned(),
         results: &["select(real(0.0), real(1.0), group_ends(i32(x[0]), i32(x[1])))"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let table: Vec<[f64; 2]> =
         (-20..20).flat_map(|k| [1, 2, 3, 7].map(|every| [f64::from(k), f64::from(every)])).collect();

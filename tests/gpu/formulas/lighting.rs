@@ -1,7 +1,7 @@
 //! Lighting transfer functions.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::reference::number::Vec3;
 use drypoint::reference::volumeshop::LightingFunction;
 use drypoint::scene::glam::DVec3;
@@ -45,7 +45,7 @@ fn lighting_tables() {
         let params = LightingParams { source, table: Arc::new(lighting), divisor_floor: 0.25, light: light_vector };
         let function = LightingFunction::<f64>::new(&params);
         let sizes = format!("const LIGHTING_WIDTH: i32 = {width};\nconst LIGHTING_HEIGHT: i32 = {height};\n");
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!(
                 "{sizes}{TYPES}{}",
                 modules(&["number/arithmetic", "number/bilinear", "volumeshop/lighting"])
@@ -59,7 +59,7 @@ fn lighting_tables() {
                 let lit = shade_by_table(ray, sample, a, c_u);
                 let unlit = shade_by_table(ray, sample, Attributes(), c_u);",
             results: &["lit.rgb.y", "lit.alpha", "unlit.rgb.y", "unlit.alpha"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let truth = |&[a, b, c, d, e, f, color, alpha, magnitude]: &[f64; 9]| {
             let (n, v) = (Vec3::new(a, b, c), Vec3::new(d, e, f));

@@ -1,7 +1,7 @@
 //! Triangles of meshes, the boxes about them and their normals ([VS-12]).
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::scene::glam::DVec3;
 
 /// Half a last place of 1 in f32: the error of one operation.
@@ -42,7 +42,7 @@ fn triangles_are_met_at_their_closed_form() {
         let row: Vec<f64> = [o, d, p, q, r].iter().flat_map(|v| v.to_array()).collect();
         table.push(row.try_into().unwrap());
     }
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["mesh/triangle"]),
         before: &format!("{HIT}\nlet hit = triangle_hit(line, p, q, r);"),
         results: &[
@@ -52,7 +52,7 @@ fn triangles_are_met_at_their_closed_form() {
             "hit.weights.y",
             "hit.weights.z",
         ],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 15]| {
         let [o, d, p, q, r] = [0, 1, 2, 3, 4].map(|i| at(row, i));
@@ -84,14 +84,14 @@ fn no_ray_passes_between_two_triangles() {
         let row = [aim - d * (1.0 + 9.0 * next()), d, p, q, aim + side, aim - side * (0.2 + next())];
         table.push(row.iter().flat_map(|v| v.to_array()).collect::<Vec<_>>().try_into().unwrap());
     }
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["mesh/triangle"]),
         before: &format!(
             "{HIT}\nlet s = vec3<real>(x[15], x[16], x[17]);
             let is_met = triangle_hit(line, p, q, r).is_met || triangle_hit(line, q, p, s).is_met;"
         ),
         results: &["select(real(0.0), real(1.0), is_met)"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let found = errors(&gpu, &kernel, &table, |_| [1.0], |_, _, _| 1.0);
     assert_eq!(found, [0.0, 0.0]);
@@ -137,14 +137,14 @@ fn boxes_are_met_at_their_slabs() {
             table.push(row);
         }
     }
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["mesh/tree"]),
         params: &[("mesh_slack", 128.0 * U)],
         before: "let inverse = inverse_of(vec3<real>(x[3], x[4], x[5]));
             let is_met = meets_box(vec3<real>(x[0], x[1], x[2]), inverse, vec3<real>(x[6], x[7], x[8]),
                 vec3<real>(x[9], x[10], x[11]), x[12], x[13]);",
         results: &["select(real(0.0), real(1.0), is_met)"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 14]| [f64::from(u8::from(inside(row) > 0.0))];
     let met = table.iter().filter(|row| truth(row)[0] == 1.0).count();
@@ -173,12 +173,12 @@ fn normals_are_on_the_side_of_the_eye() {
         table.push([flat, sum, v].iter().flat_map(|v| v.to_array()).collect::<Vec<_>>().try_into().unwrap());
     }
     table.push([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["mesh/nearest_normal"]),
         before: "let flat_normal = vec3<real>(x[0], x[1], x[2]);
             let n = seen_normal(flat_normal, vec3<real>(x[3], x[4], x[5]), vec3<real>(x[6], x[7], x[8]));",
         results: &["n.x", "n.y", "n.z"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 9]| {
         let [flat, sum, v] = [0, 1, 2].map(|i| at(row, i));

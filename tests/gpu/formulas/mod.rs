@@ -12,7 +12,7 @@ mod styles;
 mod volumeshop;
 
 use crate::gpu;
-use drypoint::gpu::{Gpu, Kernel, Precision};
+use drypoint::gpu::{Gpu, Precision, ShaderKernel};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -31,7 +31,7 @@ pub(crate) fn modules(names: &[&str]) -> String {
 /// of the row, the truth and the place of the result. Inputs are such that f32 holds them.
 pub(crate) fn errors<const N: usize, const M: usize>(
     gpu: &Gpu,
-    kernel: &Kernel<'_>,
+    kernel: &ShaderKernel<'_>,
     table: &[[f64; N]],
     truth: impl Fn(&[f64; N]) -> [f64; M],
     scale: impl Fn(&[f64; N], &[f64; M], usize) -> f64,

@@ -1,8 +1,8 @@
 //! Transfer functions over two quantities, and labels.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
-use drypoint::reference::field::Place;
+use drypoint::gpu::ShaderKernel;
+use drypoint::reference::field::CellPosition;
 use drypoint::reference::labels::Labels;
 use drypoint::reference::number::Vec3;
 use drypoint::reference::transfer::over::{AxisMeasure, OtherVolume, PointDistance, SampleQuantities};
@@ -57,7 +57,7 @@ fn places_in_the_plane() {
             let x = coordinate(is_id[0], &of_node, &mut next);
             table.push([x, coordinate(is_id[1], &ids, &mut next)]);
         }
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!(
                 "struct NodePlace {{ node: i32, w: real, alpha_u: real, }}
                  struct Ray {{ k: i32, }}\nstruct Sample {{ x: real, y: real, }}\nstruct Attributes {{ k: i32, }}
@@ -81,7 +81,7 @@ fn places_in_the_plane() {
                 "p.w",
                 "p.alpha_u",
             ],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let truth = |&[x, y]: &[f64; 2]| {
             let coordinate = |is: bool, x: f64| if is { Coordinate::Id(x as u32) } else { Coordinate::Number(x) };
@@ -153,9 +153,9 @@ fn labels_at_positions() {
             );
             vectors.extend([("label_reach_low", from), ("label_reach_high", to)].map(|(n, v)| (n, v.to_array())));
         }
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!(
-                "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}
+                "struct CellPosition {{ cell: vec3<i32>, w: vec3<real>, }}
                  const LABEL_BITS = 16;\nconst LABELS_X = {};\nconst LABELS_Y = {};\n{}",
                 dims[0],
                 dims[1],
@@ -164,7 +164,7 @@ fn labels_at_positions() {
             vectors: &vectors,
             words: &[(15, &words)],
             results: &["real(label_at(vec3<real>(x[0], x[1], x[2])))"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let found = errors(&gpu, &kernel, &table, |&p| [f64::from(at(p))], |_, _, _| 1.0);
         assert_eq!(found, [0.0; 2], "{lookup:?} {place}");
@@ -175,7 +175,7 @@ fn labels_at_positions() {
 fn sample([x, y, z]: [f64; 3]) -> SampleQuantities<f64> {
     SampleQuantities {
         position: Vec3::new(x, y, z),
-        place: Place { cell: [0; 3], w: [0.0; 3] },
+        place: CellPosition { cell: [0; 3], w: [0.0; 3] },
         value: 0.0,
         gradient: 0.0,
         magnitude: 0.0,
@@ -207,11 +207,11 @@ fn distances_from_points() {
     let point = DVec3::new(3.25, 2.5, 4.75);
     let [x, y, z] = grid.axes().to_cols_array_2d();
     let offset = (grid.origin() - point).to_array();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["transfer/over/point"]),
         vectors: &[("world_axis_x", x), ("world_axis_y", y), ("world_axis_z", z), ("offset", offset)],
         results: &["distance_from(vec3<real>(x[0], x[1], x[2]), offset())"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = PointDistance::<f64>::new(&grid, point);
     let found = errors(&gpu, &kernel, &table, |&p| [number(truth.at(&sample(p)))], |_, _, _| 20.0);
@@ -264,9 +264,9 @@ fn values_of_further_volumes() {
             false => format!("further_value({place}, vec3<real>(x[0], x[1], x[2])) - 1.0"),
             true => format!("further_value_unmasked({place}, 2, vec3<real>(x[0], x[1], x[2])) - 1.0"),
         };
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!(
-                "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
+                "struct CellPosition {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
                 modules(&[
                     "number/arithmetic",
                     "transfer/over/grid_numbers",
@@ -278,7 +278,7 @@ fn values_of_further_volumes() {
             lists: &[(16, &list)],
             words: &[(17, &mask)],
             results: &[&value],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let found = errors(&gpu, &kernel, &table, |&p| [number(truth.at(&sample(p)))], |_, _, _| 1.0);
         println!("further volumes: {found:?}");

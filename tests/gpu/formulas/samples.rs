@@ -1,7 +1,7 @@
 //! Functions of samples: opacity, compositing, light, nodes, the weights of kernels.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::reference::number::Vec3;
 use drypoint::reference::ray::opacity::Correction;
 use drypoint::reference::shading::Phong;
@@ -41,10 +41,10 @@ fn opacities_are_corrected() {
     let ratio = |next: &mut dyn FnMut() -> f64| [1.0, 0.5, 2.0 * next() + 0.01][(3.0 * next()) as usize];
     let mut table: Vec<[f64; 2]> = (0..3000).map(|_| [next().powi(6), ratio(&mut next)]).collect();
     table.extend([[0.0, 0.3], [1.0, 0.3], [0.0, 0.5], [1.0, 0.5], [1e-20, 0.7], [0.999_999, 0.01]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/math", "ray/opacity"]),
         results: &["corrected(x[0], x[1])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[alpha, ratio]: &[f64; 2]| [Correction::new(ratio).apply(alpha)];
     hold("correction", errors(&gpu, &kernel, &table, truth, |_, t, _| t[0].max(1e-37)), 16.0 * U);
@@ -56,14 +56,14 @@ fn colours_are_laid_over_each_other() {
     let Some(gpu) = gpu() else { return };
     let mut next = random(6);
     let table: Vec<[f64; 6]> = (0..2000).map(|_| std::array::from_fn(|_| next())).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["ray/accumulator"]),
         before: "let front = Front(vec3<real>(x[0], x[1], x[1]), x[2]);
             let a = over(front, vec3<real>(x[3], x[4], x[4]), x[5]);
             let b = over_premultiplied(front, vec4<real>(x[3], x[4], x[4], x[5]));
             let c = opaque_behind(front, vec3<real>(x[3], x[4], x[4]));",
         results: &["a.rgb.x", "a.rgb.z", "a.opacity", "b.rgb.x", "b.rgb.z", "b.opacity", "c.rgb.z", "c.opacity"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[r, g, a, r1, g1, a1]: &[f64; 6]| {
         let (w, through) = ((1.0 - a) * a1, 1.0 - a);
@@ -80,11 +80,11 @@ fn encoded_colours_are_laid_over_a_background() {
     let mut next = random(16);
     let table: Vec<[f64; 4]> =
         (0..2000).map(|_| [next(), next(), 0.05 + 0.95 * next(), 0.05 + 0.95 * next()]).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/math", "number/color", "ray/accumulator", "ray/blend_srgb"]),
         before: "let c = over_background(Front(vec3<real>(x[0] * x[2]), x[2]), premultiply(vec4<real>(x[1], x[1], x[1], x[3])));",
         results: &["c.r", "c.a"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[front, behind, a, b]: &[f64; 4]| {
         use drypoint::scene::color::{linear_to_srgb, srgb_to_linear};
@@ -113,7 +113,7 @@ fn phong() {
         let params =
             PhongParams { ambient: 0.25, diffuse: 0.5, specular: 0.375, shininess, light: DVec3::from_array(light) };
         let whole = format!("const WHOLE_SHININESS = {};\n", shininess.fract() == 0.0);
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!(
                 "{whole}{TYPES}{PLACE}{}",
                 modules(&["number/arithmetic", "number/math", "shading/shading", "shading/shading_of_samples"])
@@ -125,7 +125,7 @@ fn phong() {
                 let lit = shade_phong(ray, sample, a, Shaded(vec3<real>(x[6]), 1.0));
                 let unlit = shade_phong(ray, sample, Attributes(), Shaded(vec3<real>(x[6]), 1.0));",
             results: &["lit.rgb.y", "unlit.rgb.y"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let phong = Phong::<f64>::new(&params);
         let truth = |&[a, b, c, d, e, f, color]: &[f64; 7]| {
@@ -154,7 +154,7 @@ fn tones_silhouettes_and_exponents() {
     let rooms = ["toon", "toon_of_samples", "silhouette", "silhouette_of_samples", "view_opacity"]
         .map(|name| format!("interactive_volume_illustration/{name}"));
     let names: Vec<&str> = names.into_iter().chain(rooms.iter().map(String::as_str)).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!("const TONES = 3;\n{TYPES}{PLACE}{}", modules(&names)),
         params: &[("toon_offset", 0.125), ("silhouette_offset", 0.25), ("view_opacity", 0.75)],
         vectors: &[("light", light)],
@@ -169,7 +169,7 @@ fn tones_silhouettes_and_exponents() {
             "view_exponent(dot(a.normal, ray.v))",
             "grow_opacity(ray, sample, a, shaded).alpha",
         ],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 3]| {
         let x = dot(row);
@@ -201,12 +201,12 @@ fn values_between_nodes() {
     let mut next = random(9);
     let mut table: Vec<[f64; 1]> = (0..2000).map(|_| [2.0 * next() - 1.0]).collect();
     table.extend(at.map(|at| [at]));
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!("const NODES = 6;\n{}", modules(&["number/arithmetic", "transfer/piecewise"])),
         lists: &[(2, &list)],
         before: "let place = locate_value(x[0]);",
         results: &["real(place.node) + place.w", "place.alpha_u"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let function = Piecewise::<f64>::new(&at, &opacity).unwrap();
     let truth = |&[s]: &[f64; 1]| {
@@ -275,8 +275,12 @@ fn gpu_errors(
 ) -> [f64; 2] {
     use drypoint::gpu::Precision;
     let flat: Vec<f64> = table.iter().flatten().map(|&t| f64::from(t as f32)).collect();
-    let kernel =
-        Kernel { modules: text.to_owned(), before: "let taps = kernel_taps(x[0]);", results, ..Kernel::default() };
+    let kernel = ShaderKernel {
+        modules: text.to_owned(),
+        before: "let taps = kernel_taps(x[0]);",
+        results,
+        ..ShaderKernel::default()
+    };
     [Precision::Double, Precision::Single].map(|precision| {
         if precision == Precision::Double && !gpu.has_double() {
             return 0.0;
@@ -329,7 +333,7 @@ fn parts_that_planes_leave() {
             && (0..3).all(|i| (0..i).all(|j| apart([crossings[i], crossings[j]])))
             && crossings.iter().all(|&t| !t.is_finite() || apart([t, -40.0]) && apart([t, 40.0]))
     });
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!("const PLANES = 3;\n{}", modules(&["ray/ray", "ray/plane"])),
         vectors: &[("box_low", [0.0; 3]), ("box_high", [15.0; 3])],
         lists: &[(7, &list)],
@@ -347,7 +351,7 @@ fn parts_that_planes_leave() {
             "select(real(-1.0), real(kept.exit), is_left)",
             "select(real(0.0), real(1.0), is_cut(ray.origin))",
         ],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |row: &[f64; 6]| {
         let is_cut = f64::from(planes.cut(line(row)[0]));
@@ -367,11 +371,11 @@ fn caps_over_colours() {
     let Some(gpu) = gpu() else { return };
     let mut next = random(25);
     let table: Vec<[f64; 3]> = (0..500).map(|_| [next(), next(), next()]).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!("{TYPES}{PLACE}{}", modules(&["number/arithmetic", "surface/under_cap"])),
         before: "let covered = under_cap(Shaded(vec3<real>(x[0]), 1.0), Shaded(vec3<real>(x[1]), x[2]));",
         results: &["covered.rgb.y", "covered.alpha"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[own, cap, opacity]: &[f64; 3]| [own + (cap - own) * opacity, 1.0];
     hold("caps", errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0), 4.0 * U);

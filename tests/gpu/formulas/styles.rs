@@ -1,7 +1,7 @@
 //! Style transfer functions.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::{Gpu, Kernel};
+use drypoint::gpu::{Gpu, ShaderKernel};
 use drypoint::reference::number::Vec3;
 use drypoint::reference::style_transfer_functions::{
     Blend, Blend2, Contour, Detail, Footprint, MipMap, SphereMap, Spheres, StyleIndex, contour, curvature_along_ray,
@@ -91,13 +91,13 @@ fn lookups_of_spheres() {
     let maps: Vec<SphereMap> = styles.iter().map(SphereMap::new).collect();
     let table: Vec<[f64; 3]> =
         (0..styles.len()).flat_map(|j| normals(&mut next).into_iter().map(move |[x, y]| [j as f64, x, y])).collect();
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: lookups(&["style_transfer_functions/mipmaps_none"]),
         texels: &[(10, &data.texels)],
         words: &[(11, &data.maps)],
         before: "let c = sft(i32(x[0]), vec2<real>(x[1], x[2]), 0.0);",
         results: &["c.r", "c.g", "c.b", "c.a"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let found = errors(&gpu, &kernel, &table, |&[j, x, y]| maps[j as usize].sample(x, y), |_, _, _| 1.0);
     hold("sphere maps", found, (2.0 * 3.0 * 32.0 + 8.0) * U);
@@ -118,7 +118,7 @@ fn lookups_in_mip_maps() {
         }
         table.extend([-1e4, -5.0, -4.0, -3.0, -1.0, -0.5, 0.0, 3.0].map(|level| [j as f64, 0.3, -0.4, level]));
     }
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: lookups(&["style_transfer_functions/mipmaps"]),
         params: &PARAMS,
         lists: &[(12, &data.lambdas)],
@@ -126,7 +126,7 @@ fn lookups_in_mip_maps() {
         words: &[(11, &data.maps)],
         before: "let c = sft(i32(x[0]), vec2<real>(x[1], x[2]), x[3]);",
         results: &["c.r", "c.g", "c.b", "c.a"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[j, x, y, level]: &[f64; 4]| {
         let (map, chain) = &maps[j as usize];
@@ -154,7 +154,7 @@ fn levels_of_detail() {
     let mut next = random(3);
     let mut table: Vec<[f64; 3]> = (0..2000).map(|_| [0.1 + 50.0 * next(), 3.0 * next() - 1.0, next()]).collect();
     table.extend([[1.0, 0.0, 1.0], [1.0, 0.0, 0.0], [1e-3, 1e9, 0.5], [1e4, -1e9, 0.5]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: lookups(&["style_transfer_functions/mipmaps"]),
         params: &PARAMS,
         lists: &[(12, &[0.0])],
@@ -162,7 +162,7 @@ fn levels_of_detail() {
         words: &[(11, &[0, 1, 1, 0])],
         before: "let ray = Ray(x[0]);\nlet a = Attributes(x[1], x[2]);\nlet c = sft(0, vec2<real>(), 0.0).r;",
         results: &["level_below_last(ray, Sample(), a) + c"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let [curvature_bias, gradient_bias, turn, voxel, rays] = PARAMS.map(|(_, value)| f64::from(value as f32));
     let footprint = Footprint::Perspective(rays);
@@ -210,7 +210,7 @@ fn mixes_of_styles() {
         let two = modules(&["transfer/over/lookup_over_two"])
             .replace("fn style_between", "fn style_between_two")
             .replace("fn opacity_between", "fn opacity_between_two");
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: format!("{}{patch}{two}", lookups(&[&used[..], &rest[..]].concat())),
             texels: &[(10, &data.texels)],
             words: &[(11, &data.maps), (3, &of_node.map(|j| j as u32))],
@@ -220,7 +220,7 @@ fn mixes_of_styles() {
                 let one = style_between(Sample(0, below), n, 0.0);
                 let two = style_between_two(Sample(0, below), n, 0.0);",
             results: &["one.r", "one.g", "one.b", "one.a", "two.r", "two.g", "two.b", "two.a"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let truth = |&[below, wb, above, wa, w, nx, ny]: &[f64; 7]| {
             let place = |node: f64, w: f64| NodePlace { node: node as usize, w, alpha_u: 0.5 };
@@ -248,11 +248,11 @@ fn the_frame_of_the_view() {
         table.push([n[0], n[1], n[2], v[0], v[1], v[2]]);
     }
     table.push([0.6, 0.0, 0.8, 0.0, 0.0, 1.0]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["style_transfer_functions/frame_view"]),
         before: "let n = on_sphere(vec3<real>(x[0], x[1], x[2]), vec3<real>(x[3], x[4], x[5]));",
         results: &["n.x", "n.y", "n.z"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
         let n = frame::on_sphere(SphereFrame::View, Vec3::new(a, b, c), Vec3::new(d, e, f));
@@ -275,7 +275,7 @@ fn thresholds_of_contours() {
     let params = [("contour_thickness", 1.75), ("fade_low", 0.25), ("fade_width", 0.5)];
     let mut table: Vec<[f64; 2]> = (0..2000).map(|_| [2.0 * next() - 0.7, next()]).collect();
     table.extend([[0.0, 0.5], [1e9, 1.0], [-1e-9, 0.9], [0.571_428_6, 0.6], [0.5, 0.25], [0.5, 0.75]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!(
             "struct Attributes {{ kappa: real, magnitude: real, }}\n{}",
             modules(&[
@@ -286,7 +286,7 @@ fn thresholds_of_contours() {
         ),
         params: &params,
         results: &["contour_root(x[0])", "contour_fade(x[1])", "contour_threshold(Attributes(x[0], x[1]))"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let faded = Contour::<f64>::new(1.75, Kappa::Ray, Some([0.25, 0.75]));
     let truth = |&[kappa, g]: &[f64; 2]| [contour::root(kappa), contour::fade(g, 0.25, 0.75), faded.tau(kappa, g)];
@@ -294,7 +294,8 @@ fn thresholds_of_contours() {
     let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
     hold("thresholds", found, 12.0 * U);
     // A step, which |g| = lo has passed.
-    let kernel = Kernel { params: &[("contour_thickness", 1.0), ("fade_low", 0.5), ("fade_width", 0.0)], ..kernel };
+    let kernel =
+        ShaderKernel { params: &[("contour_thickness", 1.0), ("fade_low", 0.5), ("fade_width", 0.0)], ..kernel };
     let table = [0.49, 0.5, 0.51].map(|g| [0.3, g]);
     let step = Contour::<f64>::new(1.0, Kappa::Ray, Some([0.5, 0.5]));
     let truth = |&[kappa, g]: &[f64; 2]| [contour::root(kappa), contour::fade(g, 0.5, 0.5), step.tau(kappa, g)];
@@ -315,11 +316,11 @@ fn pushes_of_contours() {
     // Off the contour, on its border, τ = 0, the middle, the silhouette.
     table.extend([[0.4, 0.1, 0.75, 0.5], [0.4, 0.3, 0.5, 0.5], [0.6, 0.8, 0.0, 0.0], [0.0, 0.0, 0.0, 0.5]]);
     table.extend([[0.4, 0.1, 0.0, 0.5], [0.0, 0.0, 1.0, 1.0], [0.6, 0.8, 0.25, 0.5]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["style_transfer_functions/contour"]),
         before: "let n = pushed(vec2<real>(x[0], x[1]), x[2], x[3]);",
         results: &["n.x", "n.y"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[x, y, d, tau]: &[f64; 4]| <[f64; 2]>::from(contour::push(x, y, d, tau));
     hold("pushes", errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0), 6.0 * U);
@@ -332,10 +333,10 @@ fn illustrative_transparency() {
     let mut next = random(9);
     let mut table: Vec<[f64; 4]> = (0..3000).map(|_| [next().powi(3), next(), next(), next()]).collect();
     table.extend([[0.0, 0.5, 0.2, 0.3], [1.0, 0.5, 0.2, 0.3], [0.25, 0.1, 0.9, 0.0], [0.25, 1.0, 0.0, 0.0]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: modules(&["number/math", "style_transfer_functions/transparency_illustrative"]),
         results: &["opacity_share(x[0], x[1], x[2], x[3])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[a, d, tau, g]: &[f64; 4]| [transparency::share(Transparency::Illustrative, a, d, tau, g)];
     // α^y |ln α|·1.5 is below 1.2 for y ≥ ½.
@@ -373,10 +374,10 @@ fn turns(gpu: &Gpu, turn: Turn, text: &str, table: &[[f64; 7]]) {
     let whole = modules(&["style_transfer_functions/curvature_along_ray"]);
     let from = whole.find("// The angle between two normals").unwrap();
     let function = &whole[from..whole.find("// kappa is 0 unless").unwrap()];
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: format!("{}{function}", modules(&["number/math", &format!("style_transfer_functions/{text}")])),
         results: &["turn_along_ray(vec3<real>(x[0], x[1], x[2]), vec3<real>(x[3], x[4], x[5]), x[6])"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[a, b, c, d, e, f, way]: &[f64; 7]| {
         [curvature_along_ray::kappa(turn, Vec3::new(a, b, c), Vec3::new(d, e, f), true, way)]

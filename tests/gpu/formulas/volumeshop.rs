@@ -1,7 +1,7 @@
 //! Sets, ghosting and intersections of objects.
 
 use super::{errors, gpu, modules, random};
-use drypoint::gpu::Kernel;
+use drypoint::gpu::ShaderKernel;
 use drypoint::reference::volumeshop::fuzzy::{difference as minus, intersection, union};
 use drypoint::reference::volumeshop::ghosting::{enhancement as spared, factor};
 use drypoint::reference::volumeshop::{ObjectSet, Shares, combined, intersections};
@@ -42,7 +42,7 @@ fn sets_by_either_operator() {
     for operators in [Fuzzy::Zadeh, Fuzzy::Product] {
         let mut table = memberships();
         table.retain(|row| row[..4].iter().sum::<f64>() > 1.0 / 64.0);
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: sets_by(operators),
             before: "memberships = array<real, OBJECTS>(0.0, x[0], x[1], x[2]);
                 let shares = shares_beside();
@@ -60,7 +60,7 @@ fn sets_by_either_operator() {
                 "all.rgb.y",
                 "all.alpha",
             ],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
             let shares = Shares::beside(operators, [a, b, c].into_iter());
@@ -87,13 +87,13 @@ fn sets_by_either_operator() {
 #[test]
 fn nothing_together_is_transparent() {
     let Some(gpu) = gpu() else { return };
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: sets_by(Fuzzy::Zadeh),
         before: "sets[1] = ObjectSet(vec3<real>(x[0]), 0.0, true);
             sets[2] = ObjectSet(vec3<real>(x[0]), 0.0, false);
             let all = combined();",
         results: &["all.rgb.x", "all.alpha"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let found = errors(&gpu, &kernel, &[[0.0], [0.5]], |_| [0.0; 2], |_, _, _| 1.0);
     assert_eq!(found, [0.0; 2]);
@@ -114,7 +114,7 @@ fn ghosting_and_intersections() {
         IntersectionOpacity::Xor,
         IntersectionOpacity::Plus,
     ];
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: TYPES.to_owned() + &modules(&["number/arithmetic", "volumeshop/ghosting", "volumeshop/intersections"]),
         before: "let e = enhancement_of(x[2], x[3]);
             let mean = mean_color(Shaded(vec3<real>(x[4]), x[0]), Shaded(vec3<real>(x[5]), x[1]), x[2]);
@@ -135,7 +135,7 @@ fn ghosting_and_intersections() {
             "none.alpha",
             "own.alpha",
         ],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[a, b, c, d, e, f]: &[f64; 6]| {
         let mut all = [0.0; 13];
@@ -163,12 +163,12 @@ fn pictures_of_intersections() {
         let mut table: Vec<[f64; 2]> = (0..1000).map(|_| [next() * 1.5 - 0.25, next() * 1.5 - 0.25]).collect();
         table.extend([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]]);
         let at = format!("let found = intersection_at(2, {}, {}, x[0], x[1]);", size[0], size[1]);
-        let kernel = Kernel {
+        let kernel = ShaderKernel {
             modules: modules(&["number/arithmetic", "number/bilinear", "volumeshop/intersection_picture"]),
             lists: &[(25, pixels.as_flattened())],
             before: &at,
             results: &["found.r", "found.g", "found.b", "found.a", "share_of_range(x[0], 0.25, 0.5)"],
-            ..Kernel::default()
+            ..ShaderKernel::default()
         };
         // Two pixels of another picture come first.
         let picture = IntersectionPicture { size, pixels: pixels[2..].to_vec(), has_opacity: true };
@@ -205,7 +205,7 @@ fn dabs_of_intersections() {
         [row[2], row[3]] = [row[2], row[3]].map(|value| 2.0 * value - 0.5);
     }
     table.extend([[0.5, 0.5, 0.25, 0.75, 0.0, 0.0], [0.5, 0.5, 1e30, -1e30, 0.0, 0.0]]);
-    let kernel = Kernel {
+    let kernel = ShaderKernel {
         modules: TYPES.to_owned()
             + &modules(&[
                 "number/arithmetic",
@@ -217,7 +217,7 @@ fn dabs_of_intersections() {
         lists: &[(25, &numbers)],
         before: "let top = painted_by_all(Shaded(vec3<real>(x[0], x[4], x[5]), x[1]), 1, 2, vec2<real>(x[2], x[3]));",
         results: &["top.rgb.x", "top.rgb.y", "top.rgb.z", "top.alpha"],
-        ..Kernel::default()
+        ..ShaderKernel::default()
     };
     let truth = |&[r, alpha, v, w, g, b]: &[f64; 6]| {
         let under = ([r, g, b], alpha);

@@ -5,7 +5,7 @@
 
 use crate::field::Field;
 use crate::field::kernel::trilinear::bilinear;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::stencil::{self, Cross};
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
@@ -13,7 +13,7 @@ use drypoint_scene::with_access;
 
 /// The interpolated central differences at a place.
 #[inline(always)]
-pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
     let ([x, y, z], [wx, wy, wz]) = (at.cell, at.w);
     in_registers(field, x, y, z, wx, wy, wz)
 }
@@ -21,7 +21,7 @@ pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) ->
 /// Compiled once for each number type, not once for each place that calls it; all that it is given fits in registers.
 #[inline(never)]
 fn in_registers<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize, wx: R, wy: R, wz: R) -> Vec3<R> {
-    let at = Place { cell: [x, y, z], w: [wx, wy, wz] };
+    let at = CellPosition { cell: [x, y, z], w: [wx, wy, wz] };
     match field.stencils.careful_cross(at.cell) {
         Some(cross) => interpolated(cross, at.w),
         // Compiled for each stored type, which spares the 32 numbers a way through memory.

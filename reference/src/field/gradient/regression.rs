@@ -10,8 +10,8 @@
 //! of them exist: all 27, or those that a border leaves.
 
 use crate::field::Field;
-use crate::field::place::Place;
-use crate::field::stencil::Block;
+use crate::field::place::CellPosition;
+use crate::field::stencil::VoxelBlock;
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
@@ -79,7 +79,7 @@ impl<R: Real> Regression<R> {
     }
 
     /// The interpolated gradient at a place, along the index axes.
-    pub(in crate::field) fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    pub(in crate::field) fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         let dims = field.stencils.dims();
         let mut block = field.stencils.block::<R>(at.cell);
         // Whole numbers have exact differences, and those of a constant are 0.
@@ -144,7 +144,7 @@ impl<R: Real> Regression<R> {
 }
 
 /// The 3³ voxels around a place: those around the corners of its cell, interpolated.
-fn interpolated<R: Real>(block: &Block<R>, [wx, wy, wz]: [R; 3]) -> [R; 27] {
+fn interpolated<R: Real>(block: &VoxelBlock<R>, [wx, wy, wz]: [R; 3]) -> [R; 27] {
     let mut rows = [[[R::ZERO; 3]; 4]; 4];
     for (rows, plane) in rows.iter_mut().zip(block) {
         for (row, line) in rows.iter_mut().zip(plane) {

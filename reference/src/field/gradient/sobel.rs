@@ -5,13 +5,13 @@
 //! dropped. Interpolated between two voxels, each of the two operations has four taps, like a kernel.
 
 use crate::field::Field;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::volume::Access;
 
 /// The interpolated gradient at a place, along the index axes.
-pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
     let dims = field.stencils.dims();
     let block = field.stencils.block::<R>(at.cell);
     let taps: [Taps<R, 4>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));

@@ -5,12 +5,12 @@
 //! the cell, and w interpolates between them. The result has six taps, like a kernel.
 
 use crate::field::Field;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::tensor::Taps;
 use crate::number::{Real, Sym3};
 
 /// The interpolated Hessian at a place, along the index axes.
-pub(in crate::field) fn hessian<R: Real>(field: &Field<'_, R>, at: Place<R>) -> Sym3<R> {
+pub(in crate::field) fn hessian<R: Real>(field: &Field<'_, R>, at: CellPosition<R>) -> Sym3<R> {
     let dims = field.stencils.dims();
     let block = field.stencils.large_block::<R>(at.cell);
     let [x, y, z]: [Taps<R, 6>; 3] = std::array::from_fn(|axis| taps(at.cell[axis], at.w[axis], dims[axis]));

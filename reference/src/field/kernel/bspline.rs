@@ -3,7 +3,7 @@
 
 use crate::field::Field;
 use crate::field::coefficients::Coefficients;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
 use crate::number::{Real, Sym3, Vec3};
@@ -37,34 +37,34 @@ pub(in crate::field) fn taps<R: Real>(t: R) -> Taps<R, 4> {
 
 impl<R: Real> Interpolant<R> for Bspline<'_, R> {
     #[inline]
-    fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
+    fn value(&self, _: &Field<'_, R>, at: CellPosition<R>) -> R {
         self.0.base() + self.0.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
-    fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    fn gradient(&self, _: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         self.0.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 
     #[inline]
-    fn second(&self, _: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn second(&self, _: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         self.0.cubic_derivatives(at)
     }
 }
 
 impl<R: Real> Interpolant<R> for BsplineSmooth {
     #[inline]
-    fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
+    fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R {
         field.stencils.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
-    fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         field.stencils.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 
     #[inline]
-    fn second(&self, field: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn second(&self, field: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         field.stencils.sum(at.cell, &tensor::Second { w: at.w, taps })
     }
 }

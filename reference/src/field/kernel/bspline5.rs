@@ -3,7 +3,7 @@
 
 use crate::field::Field;
 use crate::field::coefficients::Coefficients;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::lanes::widely;
@@ -57,7 +57,7 @@ pub(in crate::field) fn taps<R: Real>(t: R) -> Taps<R, 6> {
 
 impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     #[inline]
-    fn value(&self, _: &Field<'_, R>, at: Place<R>) -> R {
+    fn value(&self, _: &Field<'_, R>, at: CellPosition<R>) -> R {
         widely(
             #[inline(always)]
             || self.0.base() + tensor::value(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),
@@ -65,7 +65,7 @@ impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     }
 
     #[inline]
-    fn gradient(&self, _: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    fn gradient(&self, _: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         widely(
             #[inline(always)]
             || tensor::gradient(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),
@@ -73,7 +73,7 @@ impl<R: Real> Interpolant<R> for Bspline5<'_, R> {
     }
 
     #[inline]
-    fn second(&self, _: &Field<'_, R>, at: Place<R>) -> (Vec3<R>, Sym3<R>) {
+    fn second(&self, _: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         widely(
             #[inline(always)]
             || tensor::second(&RowsFn(self.0.rows(at.cell)), &at.w.map(taps)),

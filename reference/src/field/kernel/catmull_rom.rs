@@ -1,7 +1,7 @@
 //! Catmull–Rom: interpolates the voxels, C¹, exact for quadratics ([REC-1]).
 
 use crate::field::Field;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
 use crate::number::{Real, Vec3};
@@ -30,12 +30,12 @@ fn taps<R: Real>(t: R) -> Taps<R, 4> {
 
 impl<R: Real> Interpolant<R> for CatmullRom {
     #[inline]
-    fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
+    fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R {
         field.stencils.sum(at.cell, &tensor::Value { w: at.w, taps })
     }
 
     #[inline]
-    fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         field.stencils.sum(at.cell, &tensor::Gradient { w: at.w, taps })
     }
 }

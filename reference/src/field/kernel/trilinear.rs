@@ -1,7 +1,7 @@
 //! Trilinear interpolation, the papers' kernel ([REC-1]).
 
 use crate::field::Field;
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::sampler::Interpolant;
 use crate::field::stencil::{self, Corners};
 use crate::number::{Arithmetic, Real, Vec3};
@@ -42,7 +42,7 @@ fn gradient<R: Real>(r: Corners<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
 
 impl<R: Real> Interpolant<R> for Trilinear {
     #[inline(always)]
-    fn value(&self, field: &Field<'_, R>, at: Place<R>) -> R {
+    fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R {
         match field.stencils.careful_corners(at.cell) {
             Some(corners) => value(corners, at.w),
             None => with_access!(field.volume, |a| value(stencil::corners(a, at.cell), at.w)),
@@ -50,7 +50,7 @@ impl<R: Real> Interpolant<R> for Trilinear {
     }
 
     #[inline]
-    fn gradient(&self, field: &Field<'_, R>, at: Place<R>) -> Vec3<R> {
+    fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         match field.stencils.careful_corners(at.cell) {
             Some(corners) => gradient(corners, at.w),
             None => with_access!(field.volume, |a| gradient(stencil::corners(a, at.cell), at.w)),
@@ -65,7 +65,11 @@ impl Trilinear {
     /// The numbers at several places. It decides the stored type once for all of them: a decision for each, and the wait
     /// for each before the next, would take most of the time.
     #[inline(always)]
-    pub(in crate::field) fn values<R: Real>(field: &Field<'_, R>, place: impl Fn(usize) -> Place<R>, values: &mut [R]) {
+    pub(in crate::field) fn values<R: Real>(
+        field: &Field<'_, R>,
+        place: impl Fn(usize) -> CellPosition<R>,
+        values: &mut [R],
+    ) {
         let places = values.iter_mut().enumerate().map(|(i, value)| (place(i), value));
         if field.stencils.careful() {
             places.for_each(|(at, v)| *v = Self.value(field, at));

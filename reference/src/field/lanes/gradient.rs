@@ -3,7 +3,7 @@
 use super::{LANES, LaneReader, Packed, Places, word};
 use crate::field::GradientEstimator;
 use crate::field::gradient::{central, sobel};
-use crate::field::place::Place;
+use crate::field::place::CellPosition;
 use crate::field::stencil::Cross;
 use crate::field::tensor::{self, Rows};
 use crate::number::Vec3;
@@ -49,8 +49,8 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
             let cell = [cell.x[lane] as usize, cell.y[lane] as usize, cell.z[lane] as usize];
             let g = match (is_sobel, inside >> lane & 1 == 1) {
                 (true, true) => self.sobel_alone(start[lane], w),
-                (true, false) => sobel::gradient(self.field, Place { cell, w }),
-                (false, _) => central::gradient(self.field, Place { cell, w }),
+                (true, false) => sobel::gradient(self.field, CellPosition { cell, w }),
+                (false, _) => central::gradient(self.field, CellPosition { cell, w }),
             };
             (index.x[lane], index.y[lane], index.z[lane]) = (g.x, g.y, g.z);
         }

@@ -11,7 +11,7 @@ pub(crate) use self::each::EachReader;
 use self::each::seconds;
 
 use super::kernel::trilinear;
-use super::place::Place;
+use super::place::CellPosition;
 use super::{Field, GradientEstimator, KernelData};
 use crate::number::{Mat3, Sym3, Vec3};
 use drypoint_scene::volume::{Access, Linear, Voxel, Voxels};
@@ -98,7 +98,7 @@ fn pairs<V: Packed>(window: &Linear<'_, V>, [(y, z), (next_y, next_z)]: [(usize,
     word(window.row::<2>(x, y, z)) | word(window.row::<2>(x, next_y, next_z)) << (2 * V::BITS)
 }
 
-/// Cells and the fractions in them, like [`Place`].
+/// Cells and the fractions in them, like [`CellPosition`].
 #[derive(Clone, Copy)]
 pub(crate) struct Places<S: Simd> {
     cell: Vec3<f64x8<S>>,
@@ -146,9 +146,9 @@ impl PlaceColumns {
 
     /// The place of a lane.
     #[inline(always)]
-    fn place(&self, lane: usize) -> Place<f64> {
+    fn place(&self, lane: usize) -> CellPosition<f64> {
         let [wx, wy, wz] = &self.w;
-        Place { cell: self.cell(lane), w: [wx[lane], wy[lane], wz[lane]] }
+        CellPosition { cell: self.cell(lane), w: [wx[lane], wy[lane], wz[lane]] }
     }
 }
 

@@ -36,7 +36,7 @@ pub struct Smoothed<'f, 'v> {
     side: usize,
     /// Bricks along x, y, z.
     dims: [usize; 3],
-    bricks: Vec<OnceLock<Region>>,
+    bricks: Vec<OnceLock<SmoothedBox>>,
     /// Root sums of squares of the weights of a value and of a second derivative, for each voxel along each axis.
     responses: [Vec<[f64; 2]>; 3],
     /// Squared length of each column of D⁻ᵀ, which converts second derivatives to the world's unit.
@@ -49,7 +49,7 @@ pub struct Smoothed<'f, 'v> {
 
 /// Smoothed samples of a box, x fastest: the samples that its cells read.
 #[derive(Debug)]
-pub struct Region {
+pub struct SmoothedBox {
     /// The first cell. The first sample lies two before it.
     first: [usize; 3],
     /// Samples along each axis.
@@ -57,7 +57,7 @@ pub struct Region {
     data: Box<[f64]>,
 }
 
-impl Region {
+impl SmoothedBox {
     /// Index of a sample in `data`; each axis counts from two samples before the grid.
     #[inline(always)]
     fn place(&self, sample: [usize; 3]) -> usize {
@@ -102,7 +102,12 @@ impl<'f, 'v> Smoothed<'f, 'v> {
     /// The results agree up to rounding. None where the gradient is no longer than `bound`. `region` holds the voxel's
     /// samples; without it they are taken from the voxel's brick.
     #[inline]
-    pub fn at_voxel(&self, voxel: [usize; 3], bound: f64, region: Option<&Region>) -> Option<(Vec3<f64>, Sym3<f64>)> {
+    pub fn at_voxel(
+        &self,
+        voxel: [usize; 3],
+        bound: f64,
+        region: Option<&SmoothedBox>,
+    ) -> Option<(Vec3<f64>, Sym3<f64>)> {
         let region = region.unwrap_or_else(|| self.brick_of(self.cell_of(voxel)));
         let [y, z] = [region.sides[0], region.sides[0] * region.sides[1]];
         let from = region.place(voxel);
@@ -123,7 +128,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
 
     /// The samples that the cell's brick reads, computed on the first request.
     #[inline]
-    fn brick_of(&self, [x, y, z]: [usize; 3]) -> &Region {
+    fn brick_of(&self, [x, y, z]: [usize; 3]) -> &SmoothedBox {
         let (side, [nx, ny, _]) = (self.side, self.dims);
         let (x, y, z) = (x / side, y / side, z / side);
         self.bricks[(z * ny + y) * nx + x].get_or_init(|| self.region([x * side, y * side, z * side], [side; 3]))
@@ -165,7 +170,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
 
     /// The samples that some cells read, or as many of them as there are, computed on their own and not kept. Sums run
     /// along z, then y, then x, each over all samples that one stored number enters, in their order.
-    pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> Region {
+    pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> SmoothedBox {
         let of_axis = |a: usize| {
             let rows = &self.rows[a][first[a]..];
             &rows[..rows.len().min(cells[a] - 1 + TAPS)]
@@ -182,7 +187,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         if let Some(along_z) = along_z {
             sums.across(&along_z, &mut data);
         }
-        Region { first, sides, data: data.into_boxed_slice() }
+        SmoothedBox { first, sides, data: data.into_boxed_slice() }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Stencils at the border of the grid, where lines of voxels are continued ([REC-1]).
 
-use super::{Block, Corners, Cross, Stencils, number};
+use super::{Corners, Cross, Stencils, VoxelBlock, number};
 use crate::number::Real;
 use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
@@ -38,7 +38,7 @@ impl Stencils<'_> {
 
     /// Reads the voxels that are in the grid and continues them outwards along x, then y, then z.
     #[cold]
-    pub(super) fn read_block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+    pub(super) fn read_block<R: Real>(&self, cell: [usize; 3]) -> VoxelBlock<R> {
         let dims = self.dims();
         let mut b = if dims.iter().all(|&n| n >= 4) {
             self.pushed_inside(cell)
@@ -69,7 +69,7 @@ impl Stencils<'_> {
 
     /// The voxels of a block that are in the grid, in their places; the other entries hold anything. Axes have at least
     /// four voxels.
-    fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+    fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> VoxelBlock<R> {
         let dims = self.dims();
         let mut start = [0; 3];
         // For each tap, the index of its voxel, or of the nearest one, among the four that are read.

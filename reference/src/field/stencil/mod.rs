@@ -74,7 +74,7 @@ fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usiz
 }
 
 /// The 4³ voxels around a cell, [z][y][x].
-pub(super) type Block<R> = [[[R; 4]; 4]; 4];
+pub(super) type VoxelBlock<R> = [[[R; 4]; 4]; 4];
 
 /// The rows of a part of the volume.
 struct VoxelRows<S, A, R> {
@@ -194,7 +194,7 @@ impl<'v> Stencils<'v> {
 
     /// The voxels from the one before the cell on, continued beyond the border.
     #[inline(never)]
-    pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> Block<R> {
+    pub(super) fn block<R: Real>(&self, cell: [usize; 3]) -> VoxelBlock<R> {
         if !self.inside(cell) {
             return self.read_block(cell);
         }

@@ -12,7 +12,7 @@ use super::principal::principal;
 use super::stored::VoxelBox;
 use crate::field::curvature::Curvature;
 use crate::field::normal::outward;
-use crate::field::smoothed::{Region, Smoothed};
+use crate::field::smoothed::{Smoothed, SmoothedBox};
 use crate::field::{Field, Outside};
 use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::DVec3;
@@ -229,7 +229,7 @@ enum QueryPoint {
 #[derive(Default)]
 struct SmoothedRegions {
     voxels: Option<VoxelBox>,
-    made: [[OnceCell<Region>; 2]; 3],
+    made: [[OnceCell<SmoothedBox>; 2]; 3],
 }
 
 /// Converts a margin in voxels to index space along each axis. Axes of two samples need no margin: a continuation

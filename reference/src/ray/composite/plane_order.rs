@@ -6,10 +6,10 @@ use super::object_ray::ObjectRay;
 use super::seed_rays::SeedRays;
 use super::waiting_tile::{ENDED, WaitingTile};
 use crate::number::Real;
-use crate::ray::draw::Region;
+use crate::ray::draw::RayRect;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
-use crate::ray::progress::Progress;
+use crate::ray::progress::FrameProgress;
 use crate::ray::tile_work::{TileRays, TileWork};
 use crate::volumetric_halos::HaloPlanes;
 use drypoint_scene::counts::Counts;
@@ -59,8 +59,8 @@ pub(crate) fn cast_all<R: Real>(prepared: &Prepared<'_, R>, work: TileWork<'_>) 
 pub(crate) fn cast_with_halos<R: Real>(
     (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
     tiles: Vec<TileRays>,
-    region: Region,
-    progress: Progress<'_>,
+    region: RayRect,
+    progress: FrameProgress<'_>,
 ) -> Casts {
     let mut planes = HaloPlanes::new(&halos.list, region.size);
     let watched = halos.watched();

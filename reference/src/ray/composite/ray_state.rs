@@ -5,7 +5,7 @@ use super::layers::{LayerSample, Sums};
 use super::object_ray::{Largest, ObjectRay, Together};
 use super::path::Step;
 use crate::accumulator::Accumulator;
-use crate::field::{Place, Sampler};
+use crate::field::{CellPosition, Sampler};
 use crate::mesh::MeshHit;
 use crate::number::{Real, Vec3};
 use crate::ray::cell_mask::CellMask;
@@ -358,7 +358,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
 
     /// Whether a voxel of a sample's cell is masked, which is counted.
     #[inline(always)]
-    fn is_masked(&self, at: Place<R>, counts: &mut Counts) -> bool {
+    fn is_masked(&self, at: CellPosition<R>, counts: &mut Counts) -> bool {
         let is_masked = self.prepared.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell));
         counts.masked += u64::from(is_masked);
         is_masked

@@ -9,7 +9,7 @@ use super::waiting_tile::ENDED;
 use crate::field::{Field, Sampler};
 use crate::number::{Real, Vec3};
 use crate::ray::brick_occupancy::Beam;
-use crate::ray::draw::{Region, ray_point};
+use crate::ray::draw::{RayRect, ray_point};
 use crate::ray::lattice::IndexRay;
 use crate::ray::prepared::Prepared;
 use crate::ray::prepared_halos::PreparedHalos;
@@ -28,7 +28,7 @@ pub(super) struct SeedRays<'p, 'v, R: Real> {
     prepared: &'p Prepared<'v, R>,
     halos: &'p PreparedHalos<'v>,
     strips: Vec<Vec<SeedTile<'p, 'v, R>>>,
-    region: Region,
+    region: RayRect,
     /// Rays across and down, with the guard band.
     size: [usize; 2],
     /// The tiles of the region that were open when rays were dropped last.
@@ -67,7 +67,7 @@ impl<'p, 'v, R: Real> SeedRays<'p, 'v, R> {
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         halos: &'p PreparedHalos<'v>,
-        region: Region,
+        region: RayRect,
         size: [usize; 2],
         counts: &mut Counts,
     ) -> Self {
@@ -162,7 +162,7 @@ impl<'p, 'v, R: Real> SeedTile<'p, 'v, R> {
     /// Aims the rays of a tile of the images that can meet a brick with seeds, or a part that seeds.
     fn new(
         (prepared, halos): (&'p Prepared<'v, R>, &'p PreparedHalos<'v>),
-        region: Region,
+        region: RayRect,
         size: [usize; 2],
         [column, strip]: [usize; 2],
         counts: &mut Counts,

@@ -29,7 +29,7 @@ use super::brick_occupancy::{RayIntervals, merge};
 use super::composite::Cast;
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
-use super::sample::Shader;
+use super::sample::SampleShader;
 use super::sample::need::Needs;
 use super::tile_work::TileWork;
 use crate::field::AnySampler;
@@ -57,13 +57,13 @@ pub(super) fn serve(prepared: &Prepared<'_, f64>) -> bool {
         && prepared.object.volume.mask().is_none()
         && prepared.surface.is_none()
         && prepared.meshes.is_none()
-        && prepared.object.field.fits_lanes(shaded, matches!(prepared.object.shader, Shader::Style(_)))
+        && prepared.object.field.fits_lanes(shaded, matches!(prepared.object.shader, SampleShader::Style(_)))
 }
 
 /// Whether a scene is one of styles over the value, without mip-maps.
 fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
     let query = SampleQuery { kappa: KappaSource::None, hessian: false, ..prepared.object.query };
-    matches!(&prepared.object.shader, Shader::Style(styled) if styled.detail.is_none())
+    matches!(&prepared.object.shader, SampleShader::Style(styled) if styled.detail.is_none())
         && query == SampleQuery::NORMAL
         && prepared.object.query.hessian == (prepared.object.query.kappa == KappaSource::Exact)
         && prepared.object.first.is_none()
@@ -86,7 +86,7 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     let mut intervals = Default::default();
     let sampler = prepared.object.field.sampler();
     let dear = !matches!(sampler, AnySampler::Trilinear(_));
-    let at_once = if matches!(prepared.object.shader, Shader::Style(_)) { RAYS } else { LANES };
+    let at_once = if matches!(prepared.object.shader, SampleShader::Style(_)) { RAYS } else { LANES };
     let mut packets = Vec::with_capacity(at_once / LANES);
     packets.resize_with(at_once.min(points.len()).div_ceil(LANES), || Packet::new(prepared));
     for points in points.chunks(at_once) {
@@ -134,21 +134,22 @@ fn run<V: Packed>(
     let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) else { return };
     let field = &prepared.object.field;
     match &prepared.object.shader {
-        Shader::Style(styled) => simd.vectorize(
+        SampleShader::Style(styled) => simd.vectorize(
             #[inline(always)]
             || cast_waiting(simd, packets, styled, LaneReader::new(simd, field, data, is_signed), counts),
         ),
-        Shader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => simd.vectorize(
-            #[inline(always)]
-            || {
-                let reader = LaneReader::new(simd, field, data, is_signed);
-                for packet in packets {
-                    let mut shader = PhongShader::new(simd, packet, colors, phong);
-                    RayLanes::new(simd, packet, reader).run(packet, &mut shader, counts);
-                }
-            },
-        ),
-        Shader::Regular { colors, .. } => simd.vectorize(
+        SampleShader::Regular { colors, phong: Some(phong) } if prepared.object.needs == Needs::Normal => simd
+            .vectorize(
+                #[inline(always)]
+                || {
+                    let reader = LaneReader::new(simd, field, data, is_signed);
+                    for packet in packets {
+                        let mut shader = PhongShader::new(simd, packet, colors, phong);
+                        RayLanes::new(simd, packet, reader).run(packet, &mut shader, counts);
+                    }
+                },
+            ),
+        SampleShader::Regular { colors, .. } => simd.vectorize(
             #[inline(always)]
             || {
                 let reader = LaneReader::new(simd, field, data, is_signed);
@@ -157,13 +158,13 @@ fn run<V: Packed>(
                 }
             },
         ),
-        Shader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
+        SampleShader::Illustrated(_) => unreachable!("lanes serve regular functions and styles alone"),
     }
 }
 
 /// Casts the rays of packets in styles through a field that is asked for one position after the other.
 fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], counts: &mut Counts) {
-    let Shader::Style(styled) = &prepared.object.shader else {
+    let SampleShader::Style(styled) = &prepared.object.shader else {
         unreachable!("lanes serve dear kernels in styles alone")
     };
     if let (true, Some(simd)) = (packets.iter().any(|packet| !packet.visits.is_empty()), wide()) {

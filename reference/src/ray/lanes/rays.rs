@@ -1,10 +1,10 @@
 //! Rays through eight points of the picture side by side: the steps of [`View::ray`](drypoint_scene::view::View::ray),
-//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`Shader::view_dirs`](crate::ray::sample::Shader::view_dirs).
+//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`SampleShader::view_dirs`](crate::ray::sample::Shader::view_dirs).
 
 use super::LANES;
 use crate::number::Vec3;
 use crate::ray::prepared::Prepared;
-use crate::ray::sample::Shader;
+use crate::ray::sample::SampleShader;
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::shot::StepAlong;
 use fearless_simd::prelude::*;
@@ -55,7 +55,7 @@ impl<S: Simd> Rays<S> {
         let step = f64x8::splat(simd, lattice.step);
         let v = right * v_eye.x + up * v_eye.y - forward * v_eye.z;
         let mut half = Vec3::new(zero, zero, zero);
-        if let Shader::Regular { phong: Some(phong), .. } = &prepared.object.shader {
+        if let SampleShader::Regular { phong: Some(phong), .. } = &prepared.object.shader {
             half = phong.half_vector(v);
         }
         Self {

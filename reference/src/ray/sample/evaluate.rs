@@ -1,7 +1,7 @@
 //! The attributes of the samples of one ray.
 
 use super::{CutFace, CutSample, EyeAxes, PreparedObject, SampleAttributes, ViewDirs};
-use crate::field::{Place, Sampler, curvature};
+use crate::field::{CellPosition, Sampler, curvature};
 use crate::number::{Real, Sym3, Vec3};
 use crate::ray::lattice::IndexRay;
 use crate::style_transfer_functions::curvature_along_ray;
@@ -14,7 +14,7 @@ pub(crate) struct Sample<R> {
     /// k.
     pub(crate) k: i64,
     /// Its place in the field.
-    pub(crate) at: Place<R>,
+    pub(crate) at: CellPosition<R>,
     /// The value there.
     pub(crate) s: R,
 }

@@ -1,7 +1,7 @@
 //! An object prepared for its samples: everything that is decided once a picture.
 
 use super::need::Needs;
-use super::{OverTwo, PreparedClip, Shader};
+use super::{OverTwo, PreparedClip, SampleShader};
 use crate::field::Field;
 use crate::number::{Arithmetic, Decision, Mat3, Real, Vec3};
 use crate::transfer::{IndexTable, Piecewise};
@@ -27,7 +27,7 @@ pub(crate) struct PreparedObject<'v, R> {
     pub(crate) table: Option<IndexTable<R>>,
     /// The function itself where it is over two quantities.
     pub(crate) over_two: Option<OverTwo<'v, R>>,
-    pub(crate) shader: Shader<R>,
+    pub(crate) shader: SampleShader<R>,
     pub(crate) query: SampleQuery,
     pub(crate) needs: Needs,
     /// The query of the first visible sample of a ray beyond that, for the layers `first.*`; none: nothing.

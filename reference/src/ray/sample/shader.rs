@@ -16,7 +16,7 @@ use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 
 /// A material ready for samples: how visible samples are coloured.
-pub(crate) enum Shader<R> {
+pub(crate) enum SampleShader<R> {
     /// Colours, unshaded or shaded ([STF-11]).
     Regular {
         /// Linear straight colour of each node.
@@ -56,7 +56,7 @@ pub(crate) struct Styled<R> {
     pub(crate) eye_axes: EyeAxes<R>,
 }
 
-impl<R: Real> Shader<R> {
+impl<R: Real> SampleShader<R> {
     /// Prepares the material of a shot's object, with the styles that its function names, in their order, for a volume whose
     /// smallest voxel side is `voxel` in world units.
     ///
@@ -151,7 +151,7 @@ impl<R: Real> Shader<R> {
     }
 
     /// Straight colour and opacity per reference length before light falls on them. A style carries its own light: its
-    /// colour and opacity are those of [`Shader::shade`].
+    /// colour and opacity are those of [`SampleShader::shade`].
     pub(crate) fn unlit(
         &self,
         place: impl Between<R>,

@@ -51,7 +51,7 @@ struct Arm {
 
 /// A node inside: its arms to the left, right, top and bottom.
 #[derive(Clone, Copy)]
-struct Node {
+struct GridNode {
     arms: [Arm; 4],
 }
 
@@ -61,7 +61,7 @@ pub(super) struct Body {
     corner: [f64; 2],
     spacing: f64,
     size: [usize; 2],
-    nodes: Vec<Option<Node>>,
+    nodes: Vec<Option<GridNode>>,
     u: Vec<f64>,
     /// k.
     flatness: f64,
@@ -101,9 +101,9 @@ impl Body {
                 j + 1 < size[1] && inside[t + size[0]].is_some(),
             ];
             let ways = [left, right, top, bottom];
-            Some(Node { arms: std::array::from_fn(|k| arm(ways[k], spacing, there[k])) })
+            Some(GridNode { arms: std::array::from_fn(|k| arm(ways[k], spacing, there[k])) })
         };
-        let nodes: Vec<Option<Node>> = (0..inside.len()).map(node).collect();
+        let nodes: Vec<Option<GridNode>> = (0..inside.len()).map(node).collect();
         // −Δu = 1, and k so that the largest z = √(4u/k) is the depth.
         let u = solve(size, &nodes);
         let mut body = Self { corner, spacing, size, nodes, u, flatness: 1.0 };
@@ -181,14 +181,14 @@ impl Body {
             .map(|(k, from)| from + self.spacing * k as f64)
     }
 
-    fn at_node(&self, t: usize, node: &Node) -> Corner {
+    fn at_node(&self, t: usize, node: &GridNode) -> Corner {
         let [gx, gy] = self.gradient(t, node);
         // Never 0 but for a u that has underflowed.
         let length = (gx * gx + gy * gy + self.flatness * self.u[t]).sqrt().max(f64::MIN_POSITIVE);
         Corner { place: self.place(t), normal: [-gx / length, gy / length] }
     }
 
-    fn at_cut(&self, t: usize, node: &Node, way: usize) -> Corner {
+    fn at_cut(&self, t: usize, node: &GridNode, way: usize) -> Corner {
         let Arm { length, cut } = node.arms[way];
         let [x, y] = self.place(t);
         let [dx, dy] = [[-1.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, 1.0]][way];
@@ -197,7 +197,7 @@ impl Body {
     }
 
     /// ∇u by differences of second order with arms of two lengths; exact for quadratics.
-    fn gradient(&self, t: usize, node: &Node) -> [f64; 2] {
+    fn gradient(&self, t: usize, node: &GridNode) -> [f64; 2] {
         let here = self.u[t];
         [[LEFT, RIGHT], [TOP, BOTTOM]].map(|ways| {
             let [(l, before), (r, after)] = ways.map(|way| {
@@ -253,7 +253,7 @@ struct Equation {
 }
 
 impl Equation {
-    fn new(columns: usize, outline: usize, t: usize, node: &Node) -> Self {
+    fn new(columns: usize, outline: usize, t: usize, node: &GridNode) -> Self {
         let [l, r, o, b] = node.arms.map(|arm| arm.length);
         let whole = 1.0 / (l * r) + 1.0 / (o * b);
         let at = std::array::from_fn(|way| if node.arms[way].cut.is_some() { outline } else { next(columns, t, way) });
@@ -263,7 +263,7 @@ impl Equation {
 }
 
 /// −Δu = 1 inside, u = 0 on the outline.
-fn solve([columns, rows]: [usize; 2], nodes: &[Option<Node>]) -> Vec<f64> {
+fn solve([columns, rows]: [usize; 2], nodes: &[Option<GridNode>]) -> Vec<f64> {
     let outline = nodes.len();
     let equations: Vec<Equation> =
         (0..outline).filter_map(|t| nodes[t].map(|node| Equation::new(columns, outline, t, &node))).collect();

@@ -1,7 +1,7 @@
 //! The distance to a label: Euclidean, in the world, to the nearest voxel centre with this label ([STF-4]).
 
 use super::{AxisMeasure, SampleQuantities};
-use crate::field::Place;
+use crate::field::CellPosition;
 use crate::labels::Labels;
 use crate::number::{Real, Vec3};
 use crate::transfer::Coordinate;
@@ -56,7 +56,7 @@ impl<R: Real> LabelDistance<R> {
     }
 
     /// The distance at a place of the data's grid: three nested interpolations, x then y then z.
-    fn value(&self, at: Place<R>) -> R {
+    fn value(&self, at: CellPosition<R>) -> R {
         let [nx, ny, nz] = self.dims;
         let [x, y, z] = at.cell;
         // On an axis of length 1 the second neighbour is the first.
@@ -178,7 +178,7 @@ mod tests {
         let got = distance(&grid, &grid, |i| i == 0).unwrap();
         let far = 5f64.sqrt();
         assert_eq!(got.distances, [0.0, 1.0, 2.0, 2.0, far, 8f64.sqrt()]);
-        let at = |cell, w| got.value(Place { cell, w });
+        let at = |cell, w| got.value(CellPosition { cell, w });
         assert_eq!(at([0, 0, 0], [0.5, 0.0, 0.0]), 0.5);
         assert_eq!(at([0, 0, 0], [0.0, 0.25, 0.5]), 0.5);
         assert_eq!(at([0, 0, 0], [1.0, 1.0, 0.0]), far);

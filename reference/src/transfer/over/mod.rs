@@ -16,7 +16,7 @@ pub use point::PointDistance;
 pub use sample_quantities::{CurvatureMeasure, GradientMagnitude, SampleValue};
 
 use super::Coordinate;
-use crate::field::Place;
+use crate::field::CellPosition;
 use crate::number::{Real, Vec3};
 
 /// The properties of a sample from which its quantities are measured. A property that no axis needs has its neutral
@@ -26,7 +26,7 @@ pub struct SampleQuantities<R> {
     /// The position in the data volume's index space.
     pub position: Vec3<R>,
     /// The position as a cell and coordinates in it.
-    pub place: Place<R>,
+    pub place: CellPosition<R>,
     /// The sample's value.
     pub value: R,
     /// ‖g‖ in world space, times the power of two of [SPACE-4]; 0 without a normal ([PREC-3]).
@@ -60,7 +60,7 @@ impl<R: Real> SampleQuantities<R> {
     /// A sample with a position and neutral values.
     fn at(position: [f64; 3]) -> Self {
         let zero = R::ZERO;
-        let place = Place { cell: [0; 3], w: [zero; 3] };
+        let place = CellPosition { cell: [0; 3], w: [zero; 3] };
         let position = Vec3::from_glam(position.into());
         Self { position, place, value: zero, gradient: zero, magnitude: zero, principal: [zero; 2], kappa: zero }
     }

@@ -9,7 +9,7 @@ mod region;
 pub use brush::{composed, membership};
 pub use flood::{Marker, basins};
 pub use painter::{Dab, Growth, PaintError, Painted, Painter, Seed};
-pub use region::{Region, grown};
+pub use region::{VoxelSet, grown};
 
 #[cfg(test)]
 mod tests;

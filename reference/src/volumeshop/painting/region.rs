@@ -5,7 +5,7 @@ use drypoint_scene::tables::Connectivity;
 
 /// A set of voxels.
 #[derive(Clone, Debug)]
-pub struct Region {
+pub struct VoxelSet {
     dims: [usize; 3],
     /// One bit a voxel, x fastest.
     bits: Vec<u64>,
@@ -13,7 +13,7 @@ pub struct Region {
     count: usize,
 }
 
-impl Region {
+impl VoxelSet {
     fn has_index(&self, i: usize) -> bool {
         self.bits[i / 64] >> (i % 64) & 1 == 1
     }
@@ -79,11 +79,12 @@ pub fn grown(
     seed: [usize; 3],
     connect: Connectivity,
     accepts: impl Fn([usize; 3]) -> bool,
-) -> Result<Region, NoRoom> {
+) -> Result<VoxelSet, NoRoom> {
     let voxels: usize = dims.iter().product();
     // A bit for each voxel, and at most one place in the list for it.
     memory::room_for(voxels as u64, size_of::<usize>() as u64 + 1)?;
-    let mut region = Region { dims, bits: vec![0; voxels.div_ceil(64)], bounds: [seed, seed.map(|i| i + 1)], count: 0 };
+    let mut region =
+        VoxelSet { dims, bits: vec![0; voxels.div_ceil(64)], bounds: [seed, seed.map(|i| i + 1)], count: 0 };
     region.add(seed);
     let steps = steps(connect);
     let mut open = vec![region.index(seed)];

@@ -54,7 +54,7 @@ pub(super) struct Payload<'a> {
 }
 
 /// One data file whose length has been found to fit.
-struct Part<'a> {
+struct FilePart<'a> {
     path: &'a Path,
     offset: u64,
 }
@@ -93,7 +93,7 @@ impl Payload<'_> {
     }
 
     /// Finds where the stored data of a file begin, and checks that what the header claims can be in them.
-    fn check<'p>(&self, path: &'p Path, share: usize) -> Result<Part<'p>, ReadError> {
+    fn check<'p>(&self, path: &'p Path, share: usize) -> Result<FilePart<'p>, ReadError> {
         let (file, len) = open(self.source, path)?;
         let voxel = self.voxel_type.bytes();
         let expected = share as u128 * voxel as u128;
@@ -114,7 +114,7 @@ impl Payload<'_> {
             let found = u128::from(stored.saturating_sub(self.inside));
             return match found.cmp(&expected) {
                 std::cmp::Ordering::Less => Err(Fault::Short { expected, found, unit: "bytes" }),
-                std::cmp::Ordering::Equal => Ok(Part { path, offset }),
+                std::cmp::Ordering::Equal => Ok(FilePart { path, offset }),
                 std::cmp::Ordering::Greater => Err(Fault::Long { expected, found, at_least: false, unit: "bytes" }),
             }
             .map_err(|fault| self.misfit(path, fault));
@@ -127,7 +127,7 @@ impl Payload<'_> {
         if claimed > limit {
             return Err(self.misfit(path, Fault::Oversized { claimed, limit }));
         }
-        Ok(Part { path, offset })
+        Ok(FilePart { path, offset })
     }
 
     /// Bytes of the lines to skip from `offset` on.
@@ -149,7 +149,7 @@ impl Payload<'_> {
 
     fn decode<T: Stored>(&self, kept: &KeptVoxels) -> Result<Vec<T>, ReadError> {
         let share = self.share()?;
-        let parts: Vec<Part> = self.files.iter().map(|path| self.check(path, share)).collect::<Result<_, _>>()?;
+        let parts: Vec<FilePart> = self.files.iter().map(|path| self.check(path, share)).collect::<Result<_, _>>()?;
         let mut sink = Sink { payload: self, kept, arrived: 0, chunk: Vec::new(), voxels: Vec::new() };
         if self.encoding == Encoding::Raw {
             sink.make_room(kept.len())?;
@@ -186,7 +186,7 @@ impl Payload<'_> {
     /// Takes `share` numbers from a stream of bytes, which must end behind them.
     fn stream<T: Stored>(
         &self,
-        part: &Part,
+        part: &FilePart,
         reader: &mut dyn Read,
         share: usize,
         sink: &mut Sink<T>,
@@ -239,7 +239,7 @@ impl Payload<'_> {
     /// Takes `share` numbers from text, which must hold no more.
     fn text<T: Stored>(
         &self,
-        part: &Part,
+        part: &FilePart,
         reader: &mut dyn BufRead,
         share: usize,
         sink: &mut Sink<T>,

@@ -68,7 +68,7 @@ impl<'s> Lines<'s> {
 
 /// A field of a header.
 #[derive(Clone, Debug)]
-pub(super) struct Field {
+pub(super) struct HeaderField {
     /// The field's name, as the format writes it.
     pub(super) name: &'static str,
     /// The value after the name, trimmed.
@@ -81,7 +81,7 @@ pub(super) struct Field {
 pub(super) struct Header {
     /// The file they stand in.
     pub(super) file: PathBuf,
-    fields: Vec<Field>,
+    fields: Vec<HeaderField>,
 }
 
 impl Header {
@@ -92,7 +92,7 @@ impl Header {
 
     /// Adds a field, which must be new.
     pub(super) fn add(&mut self, name: &'static str, value: &str, line: usize) -> Result<(), ReadError> {
-        let field = Field { name, value: value.trim().to_string(), line };
+        let field = HeaderField { name, value: value.trim().to_string(), line };
         if self.get(name).is_some() {
             return Err(self.error(&field, Fault::Repeated));
         }
@@ -101,17 +101,17 @@ impl Header {
     }
 
     /// A field that may be there.
-    pub(super) fn get(&self, name: &str) -> Option<&Field> {
+    pub(super) fn get(&self, name: &str) -> Option<&HeaderField> {
         self.fields.iter().find(|f| f.name == name)
     }
 
     /// The first of several names for one thing.
-    pub(super) fn first(&self, names: &[&str]) -> Option<&Field> {
+    pub(super) fn first(&self, names: &[&str]) -> Option<&HeaderField> {
         names.iter().find_map(|name| self.get(name))
     }
 
     /// A field that must be there, and what it is expected to hold.
-    pub(super) fn need(&self, name: &str, expected: &str) -> Result<&Field, ReadError> {
+    pub(super) fn need(&self, name: &str, expected: &str) -> Result<&HeaderField, ReadError> {
         self.get(name).ok_or_else(|| self.missing(name, expected))
     }
 
@@ -121,7 +121,7 @@ impl Header {
     }
 
     /// An error at a field.
-    pub(super) fn error(&self, field: &Field, fault: impl Into<Fault>) -> ReadError {
+    pub(super) fn error(&self, field: &HeaderField, fault: impl Into<Fault>) -> ReadError {
         ReadError::new(&self.file, fault).field(field.name).line(field.line)
     }
 
@@ -134,17 +134,22 @@ impl Header {
     }
 
     /// The error that a field does not hold what it should.
-    pub(super) fn expected(&self, field: &Field, expected: &str) -> ReadError {
+    pub(super) fn expected(&self, field: &HeaderField, expected: &str) -> ReadError {
         self.error(field, Fault::Value { found: quoted(&field.value), expected: expected.into() })
     }
 
     /// The one number that a field holds.
-    pub(super) fn number<T: FromStr>(&self, field: &Field, expected: &str) -> Result<T, ReadError> {
+    pub(super) fn number<T: FromStr>(&self, field: &HeaderField, expected: &str) -> Result<T, ReadError> {
         field.value.parse().map_err(|_| self.expected(field, expected))
     }
 
     /// The numbers that a field holds, parted by white space, `count` of them.
-    pub(super) fn numbers<T: FromStr>(&self, field: &Field, count: usize, what: &str) -> Result<Vec<T>, ReadError> {
+    pub(super) fn numbers<T: FromStr>(
+        &self,
+        field: &HeaderField,
+        count: usize,
+        what: &str,
+    ) -> Result<Vec<T>, ReadError> {
         let numbers: Option<Vec<T>> = field.value.split_whitespace().map(|word| word.parse().ok()).collect();
         match numbers {
             Some(numbers) if numbers.len() == count => Ok(numbers),

@@ -6,7 +6,7 @@
 
 use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError, quoted};
-use super::header::{Field, Header, Lines};
+use super::header::{Header, HeaderField, Lines};
 use super::limits::Encoding;
 use super::{Choose, grid_of, header, series};
 use crate::source::Source;
@@ -224,7 +224,7 @@ fn header_size(header: &Header) -> Result<(u64, bool), ReadError> {
 /// The files that `ElementDataFile` names: one, a numbered name with first, last and step, or a list that follows.
 fn data_files(
     header: &Header,
-    field: &Field,
+    field: &HeaderField,
     sizes: &[usize],
     lines: &mut Lines<'_>,
 ) -> Result<Vec<PathBuf>, ReadError> {
@@ -252,7 +252,7 @@ fn data_files(
 }
 
 /// Checks the number of compressed bytes that the header gives; 0 says that it is not known.
-fn compressed_size(header: &Header, field: &Field, payload: &Payload) -> Result<(), ReadError> {
+fn compressed_size(header: &Header, field: &HeaderField, payload: &Payload) -> Result<(), ReadError> {
     let said: u64 = header.number(field, "a number of bytes")?;
     let path = &payload.files[0];
     let (_, len) = header::open(payload.source, path)?;

@@ -1,7 +1,7 @@
 //! Voxels in several files: lists and numbered names, as NRRD and MetaImage have them.
 
 use super::error::{Fault, ReadError};
-use super::header::{Field, Header, Lines};
+use super::header::{Header, HeaderField, Lines};
 use crate::source::Source;
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ pub(super) fn list(header: &Path, lines: &mut Lines<'_>) -> Result<Vec<PathBuf>,
 pub(super) fn numbered(
     source: &dyn Source,
     header: &Header,
-    field: &Field,
+    field: &HeaderField,
     name: &str,
     [first, last, step]: [i64; 3],
 ) -> Result<Vec<PathBuf>, ReadError> {

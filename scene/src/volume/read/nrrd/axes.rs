@@ -2,7 +2,7 @@
 
 use super::super::error::{Fault, ReadError};
 use super::super::grid_of;
-use super::super::header::{Field, Header};
+use super::super::header::{Header, HeaderField};
 use crate::space::Grid;
 use crate::volume::Anatomy;
 use glam::{DMat3, DVec3};
@@ -97,7 +97,7 @@ fn anatomy(header: &Header, used: bool) -> Result<Option<Anatomy>, ReadError> {
 
 /// The three axes that are space. Others must have length 1, since a voxel has one value.
 fn space_axes(header: &Header, sizes: &[usize], directions: Option<&[Option<DVec3>]>) -> Result<[usize; 3], ReadError> {
-    let kinds: Option<(&Field, Vec<&str>)> = match header.get("kinds") {
+    let kinds: Option<(&HeaderField, Vec<&str>)> = match header.get("kinds") {
         Some(field) => {
             let words: Vec<&str> = field.value.split_whitespace().collect();
             if words.len() != sizes.len() {
@@ -123,7 +123,7 @@ fn space_axes(header: &Header, sizes: &[usize], directions: Option<&[Option<DVec
     {
         space.remove(extra);
     }
-    let unsupported = |field: &Field, found: String| {
+    let unsupported = |field: &HeaderField, found: String| {
         Err(header.error(field, Fault::Unsupported { found, supported: "one number a voxel on three axes of space" }))
     };
     let sizes_field = header.need("sizes", "samples along each axis")?;
@@ -145,7 +145,7 @@ fn space_axes(header: &Header, sizes: &[usize], directions: Option<&[Option<DVec
 }
 
 /// `count` vectors such as `(1,0,0)`, or `none`.
-fn vectors(header: &Header, field: &Field, count: usize) -> Result<Vec<Option<DVec3>>, ReadError> {
+fn vectors(header: &Header, field: &HeaderField, count: usize) -> Result<Vec<Option<DVec3>>, ReadError> {
     let wrong = || header.expected(field, &format!("{count} vectors (x,y,z), or none"));
     let mut vectors = Vec::new();
     let mut rest = field.value.trim_start();

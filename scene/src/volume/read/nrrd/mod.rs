@@ -8,7 +8,7 @@ mod fields;
 
 use super::data::{Payload, volume_of};
 use super::error::{Fault, ReadError, quoted};
-use super::header::{Field, Header, Lines};
+use super::header::{Header, HeaderField, Lines};
 use super::limits::Encoding;
 use super::{Choose, series};
 use crate::source::Source;
@@ -104,7 +104,7 @@ fn encoding(header: &Header) -> Result<Encoding, ReadError> {
 /// The files that `data file` names: one, a numbered name, or a list that ends the header.
 fn data_files(
     header: &Header,
-    field: &Field,
+    field: &HeaderField,
     sizes: &[usize],
     lines: &mut Lines<'_>,
 ) -> Result<Vec<PathBuf>, ReadError> {
