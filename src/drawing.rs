@@ -3,7 +3,8 @@
 mod frame_writer;
 
 use crate::Failure;
-use crate::frames::{Frames, frames};
+use crate::backend::frames;
+use crate::frames::Frames;
 use crate::gpu::Gpu;
 use crate::job::{Job, RenderTarget, provenance};
 use crate::marking::{MarkFrames, Marking};

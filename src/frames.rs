@@ -1,10 +1,7 @@
 //! Frames of a volume, by the reference or on a graphics card.
 
 use crate::Failure;
-use crate::gpu::Gpu;
-#[cfg(feature = "gpu")]
-use crate::gpu::GpuFrames;
-use crate::job::{Job, KnobVariant, render_failure};
+use crate::job::render_failure;
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
@@ -12,7 +9,6 @@ use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::Scene;
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
 /// Any number of frames of one scene, from any camera with its lens.
 pub trait Frames {
@@ -104,35 +100,5 @@ impl Frames for ReferenceFrames<'_> {
     fn show(&mut self) -> Result<Option<f64>, Failure> {
         self.renderer.again(&|_| ());
         Ok(None)
-    }
-}
-
-/// Prepares frames of a job, or of its scene with other knobs, on a graphics card or by the reference. The cost of preparing
-/// goes to `counts`.
-///
-/// # Errors
-/// Same errors as [`Job::renderer`], and those of the adapter.
-pub(crate) fn frames<'a>(
-    job: &'a Job,
-    knobs: Option<&'a KnobVariant>,
-    card: Option<&Gpu>,
-    counts: &mut Counts,
-) -> Result<Box<dyn Frames + 'a>, Failure> {
-    match card {
-        None => {
-            let start = Instant::now();
-            let renderer = knobs.map_or_else(|| job.renderer(), |knobs| job.renderer_of(knobs))?;
-            counts.add(renderer.prepared());
-            counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
-            Ok(Box::new(ReferenceFrames::new(renderer, &job.scene)))
-        }
-        #[cfg(feature = "gpu")]
-        Some(gpu) => {
-            let frames = knobs.map_or_else(|| GpuFrames::new(job, gpu), |knobs| GpuFrames::of(job, gpu, knobs))?;
-            counts.bytes.insert("volume on the card".into(), frames.bytes());
-            Ok(Box::new(frames))
-        }
-        #[cfg(not(feature = "gpu"))]
-        Some(gpu) => match *gpu {},
     }
 }

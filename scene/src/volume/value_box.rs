@@ -42,7 +42,7 @@ mod tests {
 
     fn box_of(values: Vec<f32>, pairs: &[[f64; 2]]) -> Option<[usize; 2]> {
         let grid = Grid::with_spacing([1, values.len(), 1], [1.0; 3]).unwrap();
-        let volume = Volume::new(grid, Voxels::F32(values), 1.0, 0.0).unwrap().present();
+        let volume = Volume::new(grid, Voxels::F32(values), 1.0, 0.0).unwrap();
         selected_by_value(&volume, pairs).map(|ends| ends.map(|voxel| voxel[1]))
     }
 

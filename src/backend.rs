@@ -1,0 +1,40 @@
+//! The back end that draws the frames of a job.
+
+use crate::Failure;
+use crate::frames::{Frames, ReferenceFrames};
+use crate::gpu::Gpu;
+#[cfg(feature = "gpu")]
+use crate::gpu::GpuFrames;
+use crate::job::{Job, KnobVariant};
+use drypoint_scene::counts::Counts;
+use std::time::Instant;
+
+/// Prepares frames of a job, or of its scene with other knobs, on a graphics card or by the reference. The cost of preparing
+/// goes to `counts`.
+///
+/// # Errors
+/// Same errors as [`Job::renderer`], and those of the adapter.
+pub(crate) fn frames<'a>(
+    job: &'a Job,
+    knobs: Option<&'a KnobVariant>,
+    card: Option<&Gpu>,
+    counts: &mut Counts,
+) -> Result<Box<dyn Frames + 'a>, Failure> {
+    match card {
+        None => {
+            let start = Instant::now();
+            let renderer = knobs.map_or_else(|| job.renderer(), |knobs| job.renderer_of(knobs))?;
+            counts.add(renderer.prepared());
+            counts.seconds.insert("prepare".into(), start.elapsed().as_secs_f64());
+            Ok(Box::new(ReferenceFrames::new(renderer, &job.scene)))
+        }
+        #[cfg(feature = "gpu")]
+        Some(gpu) => {
+            let frames = knobs.map_or_else(|| GpuFrames::new(job, gpu), |knobs| GpuFrames::of(job, gpu, knobs))?;
+            counts.bytes.insert("volume on the card".into(), frames.bytes());
+            Ok(Box::new(frames))
+        }
+        #[cfg(not(feature = "gpu"))]
+        Some(gpu) => match *gpu {},
+    }
+}
