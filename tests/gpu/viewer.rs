@@ -139,7 +139,7 @@ fn a_changed_scene_is_drawn_as_if_it_were_new() {
         ("", "samples = 1", "samples = \"auto\"", false),
         ("", "[shading]", "[sampling]\nkernel = \"bspline\"\n[shading]", false),
         (table, "direction = [1, 2, 3]", "direction = [3, -2, 1]", true),
-        (styles, "direction = [1, 2, 3]", "direction = [1, 2, 3]\nheight = 14", true),
+        (styles, "direction = [1, 2, 3]", "direction = [1, 2, 3]\nfov = 12", true),
         (halo, "[[150, 0], [180, 1]]", "[[120, 0], [160, 1]]", true),
         (object, "move = [0, 2, 0]", "move = [0, 3, 0]", true),
     ];
