@@ -155,7 +155,7 @@ fn labels_at_positions() {
         }
         let kernel = ShaderKernel {
             modules: format!(
-                "struct CellPosition {{ cell: vec3<i32>, w: vec3<real>, }}
+                "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}
                  const LABEL_BITS = 16;\nconst LABELS_X = {};\nconst LABELS_Y = {};\n{}",
                 dims[0],
                 dims[1],
@@ -266,7 +266,7 @@ fn values_of_further_volumes() {
         };
         let kernel = ShaderKernel {
             modules: format!(
-                "struct CellPosition {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
+                "struct Place {{ cell: vec3<i32>, w: vec3<real>, }}\n{}",
                 modules(&[
                     "number/arithmetic",
                     "transfer/over/grid_numbers",
