@@ -75,7 +75,7 @@ impl<'a> Drawing<'a> {
         counts: &mut Counts,
     ) -> Result<Self, Failure> {
         let renderer = job.draws_volume().then(|| frames(job, None, card, counts)).transpose()?;
-        let mut drawing = Self::by(job, marking, renderer, counts)?;
+        let mut drawing = Self::with_frames(job, marking, renderer, counts)?;
         if let (Some(marks), Some(gpu)) = (&mut drawing.marks, card) {
             marks.on_gpu(job, gpu)?;
         }
@@ -87,7 +87,7 @@ impl<'a> Drawing<'a> {
     ///
     /// # Errors
     /// A camera without direction.
-    pub fn by(
+    pub fn with_frames(
         job: &'a Job,
         marking: &'a Marking<'a>,
         renderer: Option<Box<dyn Frames + 'a>>,

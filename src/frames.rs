@@ -50,8 +50,8 @@ pub trait Frames {
         Ok(frame.unwrap_or_else(|| unreachable!("nothing stops the frame")))
     }
 
-    /// Draws a frame where a viewer has it, and waits for it: the reference in memory, a graphics card in a texture. Returns
-    /// the seconds of its rays by the adapter's clock; none without one.
+    /// Draws a frame where a viewer has it, and waits for it: the reference in memory, a graphics card in a texture. Nothing
+    /// stops it. Returns the seconds of its rays by the adapter's clock; none without one.
     ///
     /// # Errors
     /// Errors of the adapter, and a picture without a beauty.

@@ -17,8 +17,8 @@ pub(crate) struct Canvas<'f> {
     pub(crate) data: &'f wgpu::BindGroup,
     pub(crate) picture: &'f PictureBuffers,
     pub(crate) clock: Option<&'f Clock>,
-    /// The listener who hears the share of the frame that is done after each submission, which is waited for then; and the flag
-    /// that stops the frame.
+    /// The listener and the flag that stops the frame. After each submission, which is waited for, the listener hears the
+    /// share of the frame that is done. Without them nothing waits.
     pub(crate) steps: Option<(&'f dyn Fn(f64), &'f AtomicBool)>,
     /// Whether the frame was stopped.
     pub(crate) stopped: &'f Cell<bool>,

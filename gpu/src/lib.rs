@@ -1,7 +1,7 @@
 //! Drypoint's pictures on graphics cards, by wgpu.
 //!
-//! A [`Gpu`] is an adapter with its device. A [`UploadedVolume`] is uploaded once, and a [`CardRenderer`] draws any number of frames of
-//! it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning: planes, formulas and every `auto` are
+//! A [`Gpu`] is an adapter with its device. A volume is uploaded once ([`UploadedVolume`]), and a [`CardRenderer`] draws any
+//! number of frames of it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning: planes, formulas and every `auto` are
 //! those of the shot, and what only voxels can tell comes measured, in a
 //! [`Measured`](drypoint_scene::measured::Measured).
 //!

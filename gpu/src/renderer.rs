@@ -146,9 +146,10 @@ impl CardRenderer {
         })
     }
 
-    /// Takes another shot for the frames that follow, by the arguments of [`CardRenderer::new`]; lines inside the volume go. Pipelines
-    /// are compiled only where the text of the shader, the layers, the size of the picture or the reach of halos and funnels
-    /// differs. Other numbers and colours, and moved clip planes, are uploaded as scalars and as the lists that differ.
+    /// Takes another shot for the frames that follow, by the arguments of [`CardRenderer::new`]. Lines inside the volume go.
+    ///
+    /// Pipelines are compiled only if the text of the shader, the layers, the size of the picture or the reach of halos and
+    /// funnels differs. Other numbers and colours, and moved clip planes, are uploaded: scalars, and the lists that differ.
     ///
     /// # Errors
     /// See [`CardRenderer::new`]. The renderer then draws the shot of before.

@@ -218,7 +218,7 @@ fn every_scene_is_the_same_plane_by_plane() {
                 let renderer = job.renderer().unwrap();
                 let renderer = if planes { renderer.plane_by_plane() } else { renderer };
                 let frames = Box::new(ReferenceFrames::new(renderer, &job.scene));
-                let mut drawing = Drawing::by(&job, marking, Some(frames), &mut Counts::default()).unwrap();
+                let mut drawing = Drawing::with_frames(&job, marking, Some(frames), &mut Counts::default()).unwrap();
                 let (frame, counts) = drawing.frame(0, &|_| ()).unwrap();
                 (frame.picture.unwrap(), counts, frame.inside)
             }

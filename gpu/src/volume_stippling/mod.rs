@@ -1,4 +1,4 @@
-//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic UploadedVolume Rendering Using Stippling Techniques*, VIS 2002: points
+//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic Volume Rendering Using Stippling Techniques*, VIS 2002: points
 //! that an iso-surface hides ([STIP-15]).
 
 use crate::block::ParamBlock;

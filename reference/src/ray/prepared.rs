@@ -38,7 +38,7 @@ pub(super) struct Prepared<'v, R> {
     pub(super) encode: bool,
     /// Whether a layer beyond the beauty is asked for.
     pub(super) collects: bool,
-    /// The number of objects whose coverage layers show: the background, and so many parts but one.
+    /// The number of objects whose coverage is summed: the background is the first. 0: no layer shows coverage.
     pub(super) covering: usize,
     pub(super) layers: Vec<LayerKind>,
     pub(super) eye_axes: EyeAxes<R>,

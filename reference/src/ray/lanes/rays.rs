@@ -1,5 +1,5 @@
 //! Rays through eight points of the picture side by side: the steps of [`View::ray`](drypoint_scene::view::View::ray),
-//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`SampleShader::view_dirs`](crate::ray::sample::Shader::view_dirs).
+//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`SampleShader::view_dirs`](crate::ray::sample::SampleShader::view_dirs).
 
 use super::LANES;
 use crate::number::Vec3;
