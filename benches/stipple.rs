@@ -3,19 +3,15 @@
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
-use drypoint::reference::volume_stippling::{
-    DotCandidate, FrameDots, FrameInputs, Frames, Preprocess, StippleInputs, eliminate,
-};
-use drypoint::scene::clip::NO_PLANES;
+use drypoint::reference::volume_stippling::{DotCandidate, FrameDots, FrameInputs, Frames, Preprocess, eliminate};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3, IVec3};
 use drypoint::scene::marks::Page;
 use drypoint::scene::philox;
 use drypoint::scene::points::Points;
+use drypoint::scene::shot::StippleParams;
 use drypoint::scene::space::Grid;
-use drypoint::scene::tables::{
-    Boundary, Camera, LightDirection, PointsPerPixel, Silhouette, Stipples, Threshold, VolumeSource, VolumeTable,
-};
+use drypoint::scene::tables::{Boundary, Camera, PointsPerPixel, Scene, Silhouette, Stipples, Threshold, VolumeSource};
 use drypoint::scene::view::View;
 use drypoint::scene::volume::{Volume, Voxels};
 use std::collections::HashMap;
@@ -25,7 +21,8 @@ fn main() {
     // `cargo test` runs benches without it, to see that they work.
     if std::env::args().any(|argument| argument == "--bench") {
         for count in COUNTS {
-            let made = with_inputs(&ball(count), points);
+            let volume = ball(count);
+            let made = points(&params(&volume), &volume);
             let even = [1, 2, 4, 8, 16].map(|k| format!("{:.3}", evenness(&made, k, radius(count))));
             println!(
                 "{} points, mean nearest distance × √density of the first 1, 2, 4, 8, 16: {}",
@@ -89,28 +86,26 @@ fn stipples() -> Stipples {
     }
 }
 
-fn table() -> VolumeTable {
-    VolumeTable::new(VolumeSource::File { path: "ball.nrrd".into(), raw: None })
-}
-
-/// Calls with what makes 25 points a voxel.
-fn with_inputs<T>(volume: &Volume, f: impl FnOnce(StippleInputs<'_>) -> T) -> T {
+/// Returns parameters that make 25 points a voxel.
+fn params(volume: &Volume) -> StippleParams {
     let view = View::new(&Camera::default(), volume.grid(), [1000, 1000]).unwrap();
-    let (mut stipples, table) = (stipples(), table());
-    let first = stipples.clone();
-    let inputs =
-        StippleInputs { stipples: &first, table: &table, volume, view: &view, near: 0.5, square: 0.3, tone: None };
-    stipples.k_max = PointsPerPixel::Number(25.0 * 65_536.0 / Preprocess::new(inputs).unwrap().area);
-    f(StippleInputs { stipples: &stipples, ..inputs })
+    let scene = Scene::for_volume(VolumeSource::File { path: "ball.nrrd".into(), raw: None });
+    let made = StippleParams::new(&scene, &stipples(), volume.grid(), view).unwrap();
+    let made = StippleParams { near: 0.5, square: 0.3, ..made };
+    let area = Preprocess::new(made.clone(), volume, None).unwrap().area;
+    StippleParams { k_max: PointsPerPixel::Number(25.0 * 65_536.0 / area), ..made }
 }
 
-fn points(inputs: StippleInputs<'_>) -> Points {
-    Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
+fn points(params: &StippleParams, volume: &Volume) -> Points {
+    let preprocess = Preprocess::new(params.clone(), volume, None).unwrap();
+    preprocess.points(&mut Counts::default(), &|_| {}).unwrap()
 }
 
 #[divan::bench(args = COUNTS, sample_count = 3, sample_size = 1)]
 fn preprocess_and_points(bencher: Bencher<'_, '_>, count: f64) {
-    with_inputs(&ball(count), |inputs| bencher.bench_local(|| black_box(points(inputs)).len()));
+    let volume = ball(count);
+    let params = params(&volume);
+    bencher.bench_local(|| black_box(points(&params, &volume)).len());
 }
 
 /// White noise of which a quarter is kept, on one page.
@@ -127,25 +122,13 @@ fn sample_elimination(bencher: Bencher<'_, '_>, count: u32) {
 #[divan::bench(sample_count = 20)]
 fn frame_of_two_millions(bencher: Bencher<'_, '_>) {
     let volume = ball(2e6);
-    with_inputs(&volume, |inputs| {
-        let points = points(inputs);
-        let frames = Frames::new(FrameInputs {
-            stipples: inputs.stipples,
-            points: &points,
-            light: LightDirection::Head,
-            grid: volume.grid(),
-            reference: inputs.view,
-            near: inputs.near,
-            size: 0.35,
-            nib: None,
-            surface: None,
-            clip: &NO_PLANES,
-            tone: None,
-        });
-        let (page, mut drawn) = (Page::in_pixels(inputs.view.size, 0.0, 300.0), FrameDots::default());
-        bencher.bench_local(|| {
-            frames.draw(inputs.view, &page, &mut drawn);
-            drawn.len()
-        });
+    let params = params(&volume);
+    let (points, grid, view) = (points(&params, &volume), volume.grid(), params.view.clone());
+    let stipples = StippleParams { size: 0.35, ..params };
+    let frames = Frames::new(FrameInputs { stipples, points: &points, grid, nib: None, surface: None, tone: None });
+    let (page, mut drawn) = (Page::in_pixels(view.size, 0.0, 300.0), FrameDots::default());
+    bencher.bench_local(|| {
+        frames.draw(&view, &page, &mut drawn);
+        drawn.len()
     });
 }

@@ -35,7 +35,9 @@ mod painting;
 mod parts;
 mod provenance;
 mod room;
+mod target;
 
+use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
 use assets::Assets;
 use drypoint_output::{exr, png};
@@ -52,13 +54,13 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
-use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Background, Ids, Length, Scene, StepAlong, VolumeSource};
-use drypoint_scene::transfer::{Function, node_values};
+use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource, VolumeTable};
+use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
-pub(crate) use failures::render_failure;
-use failures::{shot_failure, view_failure};
+use drypoint_scene::volume::labels::LabelNames;
+use failures::view_failure;
+pub(crate) use failures::{render_failure, shot_failure};
 use iso::find_iso_values;
 use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
@@ -68,6 +70,8 @@ use room::{no_room_for_content, room_for_halos, room_for_table};
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes, room_for_picture};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+pub use target::RenderTarget;
+use target::{calls_for_function, plan_for, something_is_drawn, values_of_nodes};
 
 /// A scene with everything that it names.
 pub struct Job {
@@ -92,32 +96,6 @@ pub struct Job {
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
     pub(crate) objects: Objects,
-}
-
-/// The part of a scene to draw.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RenderTarget {
-    /// Everything that the scene draws.
-    #[default]
-    Picture,
-    /// Points and lines alone, on their page. The volume itself is not drawn, and needs nothing.
-    Marks,
-    /// Stipples and outlines, on their page.
-    Points,
-    /// Hatching and outlines, on their page.
-    Strokes,
-}
-
-impl RenderTarget {
-    /// Whether the scene's stipples are drawn.
-    pub fn has_points(self) -> bool {
-        self != Self::Strokes
-    }
-
-    /// Whether the scene's hatching is drawn.
-    pub fn has_hatching(self) -> bool {
-        self != Self::Points
-    }
 }
 
 /// A job's scene with other settings of knobs, and what follows from them.
@@ -187,7 +165,7 @@ impl Job {
         };
         // The plan is of the scene as given: it says that the function was found in the data.
         let mut plan = plan_for(&scene, target);
-        plan.settle(&scene, is_integer(&volume));
+        plan.settle(&scene, volume.is_integer());
         let view = View::new(&scene.camera, volume.grid(), scene.picture.size);
         if let Ok(view) = &view {
             plan.warn_eye(view, volume.grid());
@@ -225,6 +203,25 @@ impl Job {
         }
         job.pick_foci()?;
         Ok(job)
+    }
+
+    /// Loads the scene's labels even if no effect reads them, so that each picked place has one. Returns their names.
+    ///
+    /// # Errors
+    /// Labels or names that cannot be read.
+    pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
+        let table = &self.scene.volume;
+        let unread = table.labels.clone().filter(|_| self.assets.labels.is_none());
+        let mut failures = Vec::new();
+        let labels = SceneLabels::load(
+            &*self.source,
+            &VolumeTable { labels: unread, ..table.clone() },
+            &self.volume,
+            &mut failures,
+        );
+        Failures::check(failures)?;
+        self.assets.labels = labels.volume.or(self.assets.labels.take());
+        Ok(labels.names)
     }
 
     /// Whether the volume itself is drawn, by rays.
@@ -319,7 +316,7 @@ impl Job {
     /// Returns the plan of a scene over the loaded data.
     fn plan_of(&self, scene: &Scene) -> Plan {
         let mut plan = plan_for(scene, self.target);
-        plan.settle(scene, is_integer(&self.volume));
+        plan.settle(scene, self.volume.is_integer());
         plan
     }
 
@@ -334,7 +331,7 @@ impl Job {
             let what = "the volume itself is not drawn";
             return Err(Failure::new(what, scene.given.position("transfer"), "add a [transfer] table"));
         };
-        let facts = VolumeFacts { grid: self.volume.grid(), is_integer: is_integer(&self.volume) };
+        let facts = VolumeFacts { grid: self.volume.grid(), is_integer: self.volume.is_integer() };
         let shot = Shot::resolve(scene, plan, facts, function.clone(), view);
         let shot = shot.map_err(|error| shot_failure(&error, scene))?;
         let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
@@ -446,77 +443,12 @@ pub fn bare_for(
     suggest::fill(scene, volume, size, counts).map_err(|no_room| no_room_for_content(volume, place, &no_room))
 }
 
-/// Returns the values of the nodes of a scene's function over a volume, if they are in another unit. See [`NodesPlan`].
-fn values_of_nodes(scene: &Scene, volume: &Volume, key: String, within: Option<usize>) -> Option<NodesPlan> {
-    let transfer = scene.transfer.as_ref()?;
-    let range = scene.volume.range.unwrap_or_else(|| volume.range());
-    let values = node_values(transfer, range, volume);
-    (!values.is_empty()).then(|| NodesPlan { key, within, unit: transfer.unit.name(), values })
-}
-
-/// Returns the plan of a part of a scene.
-fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
-    match target {
-        RenderTarget::Picture => Plan::new(scene),
-        RenderTarget::Marks => Plan::of_marks(scene),
-        RenderTarget::Points => Plan::of_points(scene),
-        RenderTarget::Strokes => Plan::of_strokes(scene),
-    }
-}
-
-/// Whether something reads the transfer function: rays, dots with its colours, strokes in what it shows, or parts.
-fn calls_for_function(plan: &Plan, scene: &Scene) -> bool {
-    let passes = [Pass::Rays, Pass::DotColors, Pass::SeenCells];
-    passes.into_iter().any(|pass| plan.has_pass(pass)) || parts::reads_function(scene)
-}
-
-/// Checks that the scene draws something of the target.
-fn something_is_drawn(scene: &Scene, target: RenderTarget) -> Result<(), Failure> {
-    let at = |key| scene.given.position(key);
-    match target {
-        RenderTarget::Marks | RenderTarget::Points
-            if target == RenderTarget::Points && scene.stipples.is_none() || !scene.has_marks() =>
-        {
-            let remedy = "add a table [stipples], or write preset = \"stipple\"";
-            Err(Failure::new("the scene has no stipples", at("stipples"), remedy))
-        }
-        RenderTarget::Strokes if !scene.has_strokes() => {
-            let remedy = "add a table [hatching] or [outlines], or write preset = \"hatch\"";
-            Err(Failure::new("the scene has no strokes", at("outlines"), remedy))
-        }
-        RenderTarget::Picture if !scene.has_marks() && !scene.draws_volume() => Err(Failure::new(
-            "the scene draws nothing",
-            at("transfer"),
-            "add a [transfer] table, or a [surface] with a look",
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// Whether a volume's file stores integers ([REC-3]).
-fn is_integer(volume: &Volume) -> bool {
-    volume.voxels().voxel_type().is_integer()
-}
-
 /// Returns the colour behind the volume, if it is one.
 pub(crate) fn background_color(scene: &Scene) -> Option<Rgba> {
     match scene.picture.background {
         Background::Color(color) => Some(color),
         Background::None | Background::Picture(_) => None,
     }
-}
-
-/// Returns the distance in front of the eye at which marks begin, in world units.
-pub(crate) fn near(scene: &Scene, grid: &Grid) -> Result<f64, Failure> {
-    in_world(scene, scene.camera.near.unwrap_or(scene.sampling.step), "camera.near", grid)
-}
-
-/// Returns a length in the volume, in world units.
-pub(crate) fn in_world(scene: &Scene, length: Length, key: &str, grid: &Grid) -> Result<f64, Failure> {
-    length.world(grid).ok_or_else(|| {
-        let what = "the length is on the page, not in the volume";
-        Failure::new(what, scene.given.position(key), "give it in voxels")
-    })
 }
 
 /// Returns the pen of `[[pen]]` that `key` names.

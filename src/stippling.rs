@@ -3,23 +3,22 @@
 mod pens;
 
 use crate::Failure;
-use crate::job::{Job, near};
+use crate::job::{Job, shot_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
 use drypoint_reference::surface::IsoSurface;
 use drypoint_reference::volume_stippling::{
-    CurveVoxels, FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleError, StippleInputs, choose_on_page,
-    joined, seen,
+    CurveVoxels, FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleError, choose_on_page, joined, seen,
 };
-use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::plan::PointsPlan;
 use drypoint_scene::points::{Points, SurfacePoint};
-use drypoint_scene::shot::Clipping;
+use drypoint_scene::shot::StippleParams;
+use drypoint_scene::shot::stipples::{Even, PointsPerPixel};
 use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Even, Ink, Iso, Length, PointsPerPixel, Scene, Stipples};
+use drypoint_scene::tables::Scene;
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use pens::Pens;
@@ -36,8 +35,6 @@ pub struct Stippling<'a> {
     edges: Option<CurveVoxels>,
     /// Grid of the voxels of points and edges.
     grid: Grid,
-    /// Planes that cut points and edges away.
-    clip: ClipPlanes,
     /// λa of dots of S_max in a face seen from the front, and the number of voxels behind each other in it ([STIP-17]).
     ink: [f64; 2],
     /// Field and iso-value of the surface that hides points ([STIP-15]).
@@ -79,16 +76,8 @@ pub struct DotFrames<'a> {
 struct StippleSetup<'a> {
     job: &'a Job,
     scene: &'a Scene,
-    /// Settings of the dots as drawn: opaque ink for a plotter.
-    stipples: Stipples,
+    stipples: StippleParams,
     page: Page,
-    /// View of frame 0, from which points are made.
-    first: View,
-    near: f64,
-    /// S_max in mm.
-    size: f64,
-    /// Side of the squares that A_vol is measured in, in pixels ([STIP-3]).
-    square: f64,
     /// Measured tone of the pen, or that of ideal discs if `k_max = "auto"` asks for one ([STIP-17]).
     tone: Option<Tone>,
 }
@@ -115,9 +104,9 @@ impl<'a> Stippling<'a> {
     ) -> Result<Self, Failure> {
         let start = Instant::now();
         let setting = StippleSetup::new(job, scene)?;
-        let pens = Pens::new(scene, &setting.stipples, &setting.page)?;
+        let pens = Pens::new(scene, setting.stipples.size, &setting.page)?;
         let wrong = |error: StippleError| failure(job, &error);
-        let preprocess = Preprocess::new(setting.inputs()).map_err(wrong)?;
+        let preprocess = setting.preprocess().map_err(wrong)?;
         memory::room(preprocess.bytes()).map_err(|no_room| {
             let what = format!("{} points need {no_room}", preprocess.len());
             let place = job.scene.given.position("stipples.k_max");
@@ -131,10 +120,9 @@ impl<'a> Stippling<'a> {
         // Points are dealt to the pens; a surface may hide them.
         let ink = [preprocess.ink, preprocess.layers];
         let (layers, line_pen) = pens.deal(job, points)?;
-        let hiding = hiding(job, scene)?;
+        let hiding = hiding(job, scene, &setting.stipples)?;
         counts.seconds.insert("points".into(), start.elapsed().as_secs_f64());
-        let clip = Clipping::new(scene, job.volume.grid()).planes;
-        Ok(Self { setting, layers, line_pen, edges, grid, clip, ink, hiding })
+        Ok(Self { setting, layers, line_pen, edges, grid, ink, hiding })
     }
 
     /// Returns the number of points before they are made.
@@ -143,7 +131,7 @@ impl<'a> Stippling<'a> {
     /// Same errors as [`Stippling::new`].
     pub fn planned(job: &Job) -> Result<PointsPlan, Failure> {
         let setting = StippleSetup::new(job, &job.scene)?;
-        let preprocess = Preprocess::new(setting.inputs()).map_err(|error| failure(job, &error))?;
+        let preprocess = setting.preprocess().map_err(|error| failure(job, &error))?;
         let each = preprocess.each as u64;
         Ok(PointsPlan { voxels: preprocess.len() / each.max(1), each, bytes: preprocess.bytes() })
     }
@@ -155,16 +143,16 @@ impl<'a> Stippling<'a> {
 
     /// Prepares everything that no camera changes.
     pub fn frames(&self) -> DotFrames<'_> {
-        let StippleSetup { job, scene, stipples, first, near, size, .. } = &self.setting;
-        let (near, size, light, grid, reference) = (*near, *size, scene.light, job.volume.grid(), first);
+        let StippleSetup { job, stipples, .. } = &self.setting;
+        let grid = job.volume.grid();
         let surface =
-            self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso).clipped(&self.clip)));
+            self.hiding.as_ref().map(|(field, iso)| Arc::new(IsoSurface::new(field, *iso).clipped(&stipples.clip)));
         let [ink, layers] = self.ink;
         let measured = self.setting.tone.as_ref().filter(|_| self.setting.pen_tone().is_some());
         let tone = measured.map(|tone| PenTone { tone, ink, layers });
         let layers = self.layers.iter().map(|&PenDots { nib, ref points, .. }| {
-            let (surface, clip) = (surface.clone(), &self.clip);
-            Frames::new(FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, clip, tone })
+            let stipples = stipples.clone();
+            Frames::new(FrameInputs { stipples, points, grid, nib, surface: surface.clone(), tone })
         });
         let layers: Vec<_> = layers.collect();
         let drawn = vec![FrameDots::default(); layers.len()];
@@ -175,7 +163,7 @@ impl<'a> Stippling<'a> {
 impl<'a> DotFrames<'a> {
     /// Returns the surface that hides points, and the near distance of a perspective camera.
     pub fn hiding(&self) -> Option<(&IsoSurface<'a, 'a>, f64)> {
-        self.surface.as_deref().map(|surface| (surface, self.stippling.setting.near))
+        self.surface.as_deref().map(|surface| (surface, self.stippling.setting.stipples.near))
     }
 
     /// Sets the test of hidden points in place of the reference's.
@@ -190,8 +178,8 @@ impl<'a> DotFrames<'a> {
     /// Errors of another test of hidden points.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<Marks, Failure> {
         let start = Instant::now();
-        let Stippling { setting, line_pen, edges, grid, clip, .. } = self.stippling;
-        let StippleSetup { page, near, stipples, .. } = setting;
+        let Stippling { setting: StippleSetup { page, stipples, .. }, line_pen, edges, grid, .. } = self.stippling;
+        let (clip, near) = (&stipples.clip, stipples.near);
         // Dots of each pen, thinned evenly over all pens if the scene asks for that.
         let mut layers = Vec::with_capacity(self.layers.len());
         for (frames, drawn) in self.layers.iter().zip(&mut self.drawn) {
@@ -225,9 +213,9 @@ impl<'a> DotFrames<'a> {
                 segments = segments.into_iter().filter_map(|segment| segment.clipped(clip)).collect();
             }
             if let Some(surface) = &self.surface {
-                segments = seen(segments, surface, view, *near, grid);
+                segments = seen(segments, surface, view, near, grid);
             }
-            let lines = joined(&segments, grid, view, page, *near, line_pen.width / 2.0);
+            let lines = joined(&segments, grid, view, page, near, line_pen.width / 2.0);
             match layers.iter_mut().find(|layer| layer.pen == *line_pen) {
                 Some(layer) => layer.lines = lines,
                 None => layers.push(Layer { lines, ..Layer::new(line_pen.clone()) }),
@@ -244,27 +232,13 @@ impl<'a> DotFrames<'a> {
 
 impl<'a> StippleSetup<'a> {
     fn new(job: &'a Job, scene: &'a Scene) -> Result<Self, Failure> {
-        let at = |key: &str| scene.given.position(key);
-        let Some(mut stipples) = scene.stipples.clone() else {
+        let Some(table) = &scene.stipples else {
             let remedy = "add a table [stipples], or write preset = \"stipple\"";
-            return Err(Failure::new("the scene has no stipples", at("stipples"), remedy));
+            return Err(Failure::new("the scene has no stipples", scene.given.position("stipples"), remedy));
         };
-        if scene.page.as_ref().is_some_and(|page| page.plotter) {
-            // A nib has no opacity: fading dots would be drawn whole, with too much ink in all ([STIP-5]).
-            stipples.ink = Ink::Opaque;
-        }
-        let grid = job.volume.grid();
-        let first = job.view()?;
-        let near = near(scene, grid)?;
-        let page = Page::of(scene);
-        let size = page.length(stipples.size).ok_or_else(|| {
-            let what = "the length is in the volume, not on the page";
-            Failure::new(what, at("stipples.size"), "give it in mm, px or %")
-        })?;
-        // A_vol is in pixels, or in squares of side S_max for a picture in mm ([STIP-3]).
-        let in_mm = scene.picture.extent().is_some_and(|e| e.iter().any(|l| matches!(l, Length::Millimetres(_))));
-        let square = if in_mm { size * page.pixels_per_mm() } else { 1.0 };
-        let mut setting = Self { job, scene, stipples, page, first, near, size, square, tone: None };
+        let stipples = StippleParams::new(scene, table, job.volume.grid(), job.view()?)
+            .map_err(|error| shot_failure(&error, scene))?;
+        let mut setting = Self { job, scene, stipples, page: Page::of(scene), tone: None };
         setting.tone = match setting.pen_tone() {
             Some(path) => Some(tone(&*job.source, path)?),
             None => (setting.stipples.k_max == PointsPerPixel::Auto).then(Tone::ideal),
@@ -274,40 +248,23 @@ impl<'a> StippleSetup<'a> {
 
     /// Returns the path of the pen's measured tone, if there is one.
     fn pen_tone(&self) -> Option<&'a Path> {
-        let pen = self.scene.pens.iter().find(|pen| self.stipples.pen.as_ref() == Some(&pen.name))?;
-        pen.tone.as_deref()
+        let named = self.scene.stipples.as_ref()?.pen.as_ref();
+        self.scene.pens.iter().find(|pen| named == Some(&pen.name))?.tone.as_deref()
     }
 
-    fn inputs(&self) -> StippleInputs<'_> {
-        let Self { job, scene, stipples, first, near, square, .. } = self;
-        let (table, volume) = (&scene.volume, &job.volume);
-        // Area of a dot of S_max, in pixels.
-        let diameter = self.size * self.page.pixels_per_mm();
-        let dot = 0.25 * std::f64::consts::PI * (diameter * diameter);
-        let tone = self.tone.as_ref().map(|tone| (tone, dot));
-        StippleInputs { stipples, table, volume, view: first, near: *near, square: *square, tone }
+    /// Finds the voxels that get points.
+    fn preprocess(&self) -> Result<Preprocess<'a>, StippleError> {
+        Preprocess::new(self.stipples.clone(), &self.job.volume, self.tone.as_ref())
     }
 }
 
 /// Returns the field as the scene samples it and the iso-value of the surface that hides points, if any.
-fn hiding<'a>(job: &'a Job, scene: &Scene) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
+fn hiding<'a>(job: &'a Job, scene: &Scene, stipples: &StippleParams) -> Result<Option<(Field<'a, f64>, f64)>, Failure> {
+    let Some(iso) = stipples.hide_behind else { return Ok(None) };
     let volume = &job.volume;
-    let Some(iso) = scene.stipples.as_ref().and_then(|stipples| stipples.hide_behind) else { return Ok(None) };
-    let how = Reconstruction {
-        kernel: scene.sampling.kernel,
-        gradient: scene.sampling.gradient,
-        outside: scene.volume.outside,
-        ..Reconstruction::default()
-    };
+    let how = Reconstruction::of(scene, volume.grid()).map_err(|error| shot_failure(&error, scene))?;
     let field = Field::new(volume, how, Rung::Gradient)
         .map_err(|error| Failure::new(error, scene.given.position("volume"), "convert the volume"))?;
-    let iso = match iso {
-        Iso::Value(value) => value,
-        Iso::Auto => {
-            let place = scene.given.position("stipples.hide_behind");
-            return Err(Failure::new("the iso-value was not found", place, "give a number"));
-        }
-    };
     Ok(Some((field, iso)))
 }
 
@@ -323,8 +280,7 @@ pub fn tone(source: &dyn Source, path: &Path) -> Result<Tone, Failure> {
 fn failure(job: &Job, error: &StippleError) -> Failure {
     let (key, remedy) = match error {
         StippleError::Field(_) => ("volume", "convert the volume"),
-        StippleError::Iso => ("stipples.iso", "give a number"),
-        StippleError::Length { key } => (*key, "give it in voxels or world units"),
+        StippleError::Slab => ("stipples.slab", "give it in voxels or world units"),
         StippleError::TooMany { .. } => ("stipples.threshold", "make it larger"),
         StippleError::TooDense { .. } if job.scene.stipples.as_ref().is_some_and(|s| s.box_side.is_some()) => {
             ("stipples.box", "make it or `stipples.k_max` smaller")

@@ -1,28 +1,26 @@
 //! Strokes of a scene on the page, without hidden parts ([HATCH-14]). Hatching ([HATCH-8]) is grown once; outlines
 //! ([HATCH-18]) are found for each camera.
 
+mod growth;
 mod hatching;
-mod outlining;
+mod lengths;
 mod sample;
 mod seeding;
-mod visible_values;
 
 use crate::Failure;
-use crate::job::{Job, in_world, near, pen_named, render_failure};
+use crate::job::{Job, render_failure, shot_failure};
 use drypoint_reference::field::{Field, Reconstruction, Rung};
-use drypoint_reference::interactive_volume_illustration::Sight;
+use drypoint_reference::interactive_volume_illustration::{GrownHatching, Outlines, Sight, largest_scale};
 use drypoint_reference::surface::IsoSurface;
 use drypoint_scene::clip::{ClipPlanes, NO_PLANES};
-use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{Layer, Marks, Page, Pen, mark_counts};
-use drypoint_scene::shot::Clipping;
-use drypoint_scene::space::Grid;
+use drypoint_scene::marks::{Layer, Marks, Page, mark_counts};
+use drypoint_scene::shot::{Clipping, near};
 use drypoint_scene::strokes::Stroke;
-use drypoint_scene::tables::{Iso, Length, Scene};
+use drypoint_scene::tables::{Crease, Scene};
 use drypoint_scene::view::View;
-use hatching::{GrownHatching, HatchingSetup};
-use outlining::Outlining;
+use hatching::HatchingSetup;
+use lengths::{on_page, pen, value};
 use std::time::Instant;
 
 pub use seeding::SeedMap;
@@ -37,7 +35,7 @@ pub struct Stroking<'a> {
     /// Planes on which strokes end.
     clip: ClipPlanes,
     hatching: Option<HatchingSetup<'a>>,
-    outlining: Option<Outlining>,
+    outlines: Option<Outlines>,
 }
 
 /// Frames of strokes.
@@ -48,32 +46,6 @@ pub struct StrokeFrames<'a> {
     hatched: Option<GrownHatching<'a>>,
     /// Creases of the surface of outlines.
     creases: Vec<Stroke>,
-}
-
-/// View of a frame, and the surface that hides strokes.
-struct StrokeCamera<'a> {
-    view: &'a View,
-    page: &'a Page,
-    near: f64,
-    clip: &'a ClipPlanes,
-    /// Surface that hides strokes; none: nothing hides them.
-    hides: Option<&'a IsoSurface<'a, 'a>>,
-}
-
-impl<'a> StrokeCamera<'a> {
-    /// Returns the camera for visibility tests of points at `offset` in front of the surface.
-    fn sight(&self, offset: f64) -> Sight<'a> {
-        let &Self { view, page, near, hides: surface, clip } = self;
-        Sight { view, page, near, surface, clip, offset }
-    }
-}
-
-/// Returns the largest scale of a view in the volume, in mm of the page a world unit.
-fn largest_scale(view: &View, page: &Page, near: f64, grid: &Grid) -> f64 {
-    let pixel = (page.size.x - 2.0 * page.margin) / view.size[0] as f64;
-    let depths = grid.world_corners().map(|corner| -view.to_eye(corner).z);
-    let nearest = if view.perspective { depths.into_iter().fold(f64::INFINITY, f64::min).max(near) } else { 1.0 };
-    pixel / (view.pixel * nearest)
 }
 
 impl<'a> Stroking<'a> {
@@ -101,14 +73,9 @@ impl<'a> Stroking<'a> {
             ));
         }
         let page = Page::of(scene);
-        let near = near(scene, volume.grid())?;
-        let how = Reconstruction {
-            kernel: scene.sampling.kernel,
-            gradient: scene.sampling.gradient,
-            hessian: scene.sampling.hessian,
-            scale: in_world(scene, scene.sampling.scale, "sampling.scale", volume.grid())?,
-            outside: scene.volume.outside,
-        };
+        let resolved = |error| shot_failure(&error, scene);
+        let near = near(scene, volume.grid()).map_err(resolved)?;
+        let how = Reconstruction::of(scene, volume.grid()).map_err(resolved)?;
         let hatching = scene.hatching.as_ref().filter(|_| job.target().has_hatching());
         let reads_hessians = hatching.is_some_and(|hatching| hatching.reads_hessians());
         let rung = if reads_hessians { Rung::Hessian } else { Rung::Gradient };
@@ -117,7 +84,18 @@ impl<'a> Stroking<'a> {
         for (name, bytes) in field.bytes() {
             *counts.bytes.entry(format!("strokes {name}")).or_default() += bytes;
         }
-        let outlining = scene.outlines.as_ref().map(|table| Outlining::new(scene, table, &page)).transpose()?;
+        let outlines = match &scene.outlines {
+            Some(table) => Some(Outlines {
+                iso: value(scene, table.iso, "outlines.iso")?,
+                pen: pen(scene, "outlines", &page, table.pen.as_deref(), (table.width, table.color))?,
+                min_length: on_page(scene, &page, table.min_length, "outlines.min_length")?,
+                crease: match table.crease {
+                    Crease::Off => None,
+                    Crease::Degrees(angle) => Some(angle),
+                },
+            }),
+            None => None,
+        };
         let grid = volume.grid();
         let hatching = match hatching {
             Some(table) => {
@@ -128,23 +106,27 @@ impl<'a> Stroking<'a> {
         };
         counts.seconds.insert("strokes".into(), start.elapsed().as_secs_f64());
         let clip = Clipping::new(scene, grid).planes;
-        Ok(Self { field, page, near, hides, clip, hatching, outlining })
+        Ok(Self { field, page, near, hides, clip, hatching, outlines })
     }
 
     /// Measures the ranges of the field, once for each iso-value, and grows the strokes of hatching.
     pub fn frames(&self, counts: &mut Counts) -> StrokeFrames<'_> {
         let surfaces = self.surfaces();
         let hatched = self.hatching.as_ref().map(|hatching| hatching.grow(&self.field, counts));
-        let outlined = self.outlining.as_ref();
+        let outlined = self.outlines.as_ref();
         let own = outlined.and_then(|own| Some((own, surfaces.iter().find(|surface| surface.iso() == own.iso)?)));
+        let start = Instant::now();
         let creases = own.map_or_else(Vec::new, |(own, surface)| own.creases(surface, counts));
+        if own.is_some_and(|(own, _)| own.crease.is_some()) {
+            counts.seconds.insert("creases".into(), start.elapsed().as_secs_f64());
+        }
         StrokeFrames { stroking: self, surfaces, hatched, creases }
     }
 
     /// Returns the surfaces that strokes lie on, and that hide them.
     fn surfaces(&self) -> Vec<IsoSurface<'_, '_>> {
-        let cut = self.hatching.as_ref().filter(|hatching| hatching.is_cut());
-        let outlined = self.outlining.as_ref().map(|outlining| outlining.iso);
+        let cut = self.hatching.as_ref().map(|setup| &setup.hatching).filter(|hatching| hatching.cuts_hidden);
+        let outlined = self.outlines.as_ref().map(|outlines| outlines.iso);
         let hides = self.hides.filter(|_| cut.is_some() || outlined.is_some());
         let mut surfaces: Vec<IsoSurface<'_, '_>> = Vec::new();
         for iso in [cut.and_then(|hatching| hatching.iso), outlined, hides].into_iter().flatten() {
@@ -162,23 +144,30 @@ impl StrokeFrames<'_> {
     /// # Errors
     /// Dashes that the memory budget does not allow.
     pub fn draw(&mut self, view: &View, counts: &mut Counts) -> Result<[Vec<Layer>; 2], Failure> {
-        let Stroking { field, page, near, hides, clip, hatching, outlining } = self.stroking;
+        let Stroking { field, page, near, hides, clip, hatching, outlines } = self.stroking;
         // Each iso-value has its surface.
         let surface = |iso: f64| self.surfaces.iter().find(|surface| surface.iso() == iso);
         let mut layers = Vec::new();
-        if let Some((hatching, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
-            let hides = hides.or(hatching.iso).and_then(surface).filter(|_| hatching.is_cut());
-            layers = hatched.draw(&StrokeCamera { view, page, near: *near, clip, hides }, counts);
+        let mut sight = Sight { view, page, near: *near, surface: None, clip, offset: 0.0 };
+        if let Some((setup, hatched)) = hatching.as_ref().zip(self.hatched.as_ref()) {
+            let (start, hatching) = (Instant::now(), &setup.hatching);
+            sight.surface = hides.or(hatching.iso).and_then(surface).filter(|_| hatching.cuts_hidden);
+            layers = hatched.draw(&sight, counts);
+            *counts.seconds.entry("hatching".into()).or_default() += start.elapsed().as_secs_f64();
         }
         let hatched = layers.len();
-        if let Some(outlining) = outlining
-            && let Some((own, hides)) = surface(outlining.iso).zip(surface(hides.unwrap_or(outlining.iso)))
+        if let Some(outlines) = outlines
+            && let Some((own, hides)) = surface(outlines.iso).zip(surface(hides.unwrap_or(outlines.iso)))
         {
-            let grid = field.volume().grid();
-            let (hides, reach) = (Some(hides), grid.voxel() * largest_scale(view, page, *near, grid));
+            let start = Instant::now();
+            let strokes = outlines.strokes(own, view, counts);
+            *counts.seconds.entry("outlines".into()).or_default() += start.elapsed().as_secs_f64();
+            let (start, grid) = (Instant::now(), field.volume().grid());
+            let reach = grid.voxel() * largest_scale(view, page, *near, grid);
             // The planes have cut them already.
-            let camera = StrokeCamera { view, page, near: *near, clip: &NO_PLANES, hides };
-            layers.push(outlining.draw(&camera, (own, &self.creases), reach, counts));
+            let sight = Sight { surface: Some(hides), clip: &NO_PLANES, ..sight };
+            layers.push(outlines.visible(&sight, [&strokes, &self.creases], [grid.voxel(), reach], counts));
+            *counts.seconds.entry("hidden strokes".into()).or_default() += start.elapsed().as_secs_f64();
         }
         if let Some(hatching) = hatching {
             hatching.cut(&mut layers, hatched, view, counts)?;
@@ -193,37 +182,4 @@ impl StrokeFrames<'_> {
         let over = marks.layers.split_off(merged);
         Ok([over, marks.layers])
     }
-}
-
-/// Returns an iso-value. A job has already set those that its scene leaves to the volume.
-fn value(scene: &Scene, iso: Iso, key: &str) -> Result<f64, Failure> {
-    match iso {
-        Iso::Value(value) => Ok(value),
-        Iso::Auto => Err(Failure::new("the iso-value was not found", scene.given.position(key), "give a number")),
-    }
-}
-
-/// Returns a length on the page, in mm.
-fn on_page(scene: &Scene, page: &Page, length: Length, key: &str) -> Result<f64, Failure> {
-    page.length(length).ok_or_else(|| {
-        let what = "the length is in the volume, not on the page";
-        Failure::new(what, scene.given.position(key), "give it in mm or px")
-    })
-}
-
-/// Returns the pen that draws a table's strokes: one of `[[pen]]`, or the table's own.
-fn pen(
-    scene: &Scene,
-    table: &str,
-    page: &Page,
-    named: Option<&str>,
-    (width, color): (Length, Rgba),
-) -> Result<Pen, Failure> {
-    if let Some(name) = named {
-        // The failure names the table's `pen`, or a key that names another pen.
-        let key = if table.contains('.') { table.into() } else { format!("{table}.pen") };
-        return pen_named(scene, page, name, &key);
-    }
-    let width = on_page(scene, page, width, &format!("{table}.width"))?;
-    Ok(Pen { number: 1, name: table.into(), width, color })
 }

@@ -97,7 +97,7 @@ fn of_volume(
         ray::add_gradient(&mut shader, measured, &scales);
     }
     if query.hessian {
-        let is_integer = data.volume.voxels().voxel_type().is_integer();
+        let is_integer = data.volume.is_integer();
         field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
         ray::add_curvature(&mut shader, query);
     }

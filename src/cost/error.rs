@@ -7,6 +7,7 @@ use crate::drawing::Frame;
 use crate::job::Job;
 use drypoint_output::OutputError;
 use drypoint_output::compare::flip::{PIXELS_PER_DEGREE, flip};
+use drypoint_output::compare::line_distance::LineDistance;
 use drypoint_output::compare::{CompareOptions, compare};
 use drypoint_output::read::Image;
 use drypoint_scene::marks::Marks;
@@ -30,12 +31,12 @@ pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> R
             Ok(SettingError { rms: error.rms, max: error.max, flip, angle: None })
         }
         (SettingOutput::Strokes(a), SettingOutput::Strokes(b)) => {
-            let found = distances(a, b, job.volume.grid().voxel()).ok_or_else(|| {
+            let (LineDistance { rms, max }, angle) = distances(a, b, job.volume.grid().voxel()).ok_or_else(|| {
                 let what = "a setting draws no stroke, so that there is nothing to compare";
                 Failure::new(what, job.scene.given.position(""), "`drypoint strokes` shows what is drawn")
             })?;
             let map = flip(&painted(job, &a.marks)?, &painted(job, &b.marks)?, PIXELS_PER_DEGREE).map_err(wrong)?;
-            Ok(SettingError { flip: map.mean(), ..found })
+            Ok(SettingError { rms, max, flip: map.mean(), angle })
         }
         // A knob changes one thing.
         _ => Ok(SettingError { rms: f64::NAN, max: f64::NAN, flip: f64::NAN, angle: None }),

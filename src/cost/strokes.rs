@@ -1,6 +1,5 @@
 //! Distances between strokes of two settings ([COST-1]).
 
-use super::error::SettingError;
 use super::statistics::median;
 use drypoint_output::compare::line_distance::{LineDistance, WorldLine, angles, line_distance};
 use drypoint_scene::marks::{Marks, Polyline};
@@ -23,12 +22,11 @@ pub(super) struct DrawnStrokes {
     pub(super) marks: Marks,
 }
 
-/// Returns distances and angle of strokes to others, in voxels and degrees, without FLIP; none if there is nothing to
-/// compare. Hatching is compared stroke by stroke, by seed; other lines as lists.
-pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) -> Option<SettingError> {
+/// Returns the distances of strokes to others in voxels, and their angle in degrees; none if there is nothing to compare. Hatching is compared stroke by stroke, by seed; other lines as lists.
+pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) -> Option<(LineDistance, Option<f64>)> {
     let (Some(a), Some(b)) = (&drawn.strokes, &truth.strokes) else {
         let LineDistance { rms, max } = line_distance(lines(&drawn.marks), lines(&truth.marks), PIECE * voxel)?;
-        return Some(SettingError { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle: None });
+        return Some((LineDistance { rms: rms / voxel, max: max / voxel }, None));
     };
     let by_seed: BTreeMap<u64, &Stroke> = b.iter().map(|stroke| (stroke.key, stroke)).collect();
     let pairs: Vec<(&Stroke, &Stroke)> = a.iter().filter_map(|a| Some((a, *by_seed.get(&a.key)?))).collect();
@@ -44,7 +42,7 @@ pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) 
     let turned: Vec<f64> = compared.iter().flat_map(|(_, angles)| angles.iter().map(|a| a.to_degrees())).collect();
     let rms = (squares / together.len() as f64).sqrt();
     let angle = (!turned.is_empty()).then(|| median(&turned));
-    Some(SettingError { rms: rms / voxel, max: max / voxel, flip: f64::NAN, angle })
+    Some((LineDistance { rms: rms / voxel, max: max / voxel }, angle))
 }
 
 /// Returns the distances of two strokes, and the angles between them at steps of a voxel. Closed strokes have no common

@@ -1,7 +1,7 @@
 //! The data that the function and the material of an object name.
 
-use super::calls_for_function;
 use super::load::{function_failure, further, halo_labels, lighting_table, named, styles};
+use super::target::calls_for_function;
 use crate::Failure;
 use crate::labels::SceneLabels;
 use drypoint_reference::suggest;

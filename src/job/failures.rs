@@ -17,11 +17,12 @@ pub(super) fn view_failure(error: ViewError, scene: &Scene) -> Failure {
 }
 
 /// Returns the failure of a shot, at the key that causes it.
-pub(super) fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
+pub(crate) fn shot_failure(error: &ShotError, scene: &Scene) -> Failure {
     let (key, remedy) = match error {
         ShotError::NotSmooth(_) => (NOT_SMOOTH.0.to_owned(), NOT_SMOOTH.1),
         ShotError::Length { key } => ((*key).to_owned(), "give it in world units or in voxels"),
-        ShotError::NoIso => ("surface.iso".to_owned(), "give it a value"),
+        ShotError::NotOnPage { key } => ((*key).to_owned(), "give it in mm, px or %"),
+        ShotError::NoIso { key } => ((*key).to_owned(), "give it a value"),
         ShotError::NoLightingTable => ("shading.table".to_owned(), "load the scene as a job, which reads it"),
         ShotError::FocusInPixels { halo } => {
             (format!("halo[{halo}].seed.focus.pixels"), "give points of the world in its place: at = [[x, y, z]]")

@@ -1,8 +1,8 @@
 //! Loading of a job's data: the volume and further ones, styles, and a picture behind.
 
-use super::{Job, RenderTarget, room};
-use crate::labels::SceneLabels;
-use crate::{Failure, Failures};
+use super::room;
+use super::target::RenderTarget;
+use crate::Failure;
 use drypoint_output::OutputError;
 use drypoint_output::read::read_background;
 use drypoint_scene::color::Rgba;
@@ -48,27 +48,6 @@ pub(super) fn load_volume(source: &dyn Source, table: &VolumeTable, given: &Give
             };
             Failure::new(error, given.position("volume.phantom"), remedy)
         }),
-    }
-}
-
-impl Job {
-    /// Loads the scene's labels even if no effect reads them, so that each picked place has one. Returns their names.
-    ///
-    /// # Errors
-    /// Labels or names that cannot be read.
-    pub fn load_labels(&mut self) -> Result<LabelNames, Failures> {
-        let table = &self.scene.volume;
-        let unread = table.labels.clone().filter(|_| self.assets.labels.is_none());
-        let mut failures = Vec::new();
-        let labels = SceneLabels::load(
-            &*self.source,
-            &VolumeTable { labels: unread, ..table.clone() },
-            &self.volume,
-            &mut failures,
-        );
-        Failures::check(failures)?;
-        self.assets.labels = labels.volume.or(self.assets.labels.take());
-        Ok(labels.names)
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::assets::Assets;
 use super::room::room_for_parts;
-use super::{Job, RenderTarget, is_integer, plan_for, shot_failure, something_is_drawn, values_of_nodes};
+use super::target::{RenderTarget, plan_for, something_is_drawn, values_of_nodes};
+use super::{Job, shot_failure};
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
 use drypoint_output::read::read_intersection_picture;
@@ -106,7 +107,7 @@ impl Objects {
             something_is_drawn(&tables, RenderTarget::Picture)?;
             let volume = data(object).clone();
             let mut plan = plan_for(&tables, RenderTarget::Picture);
-            plan.settle(&tables, is_integer(&volume));
+            plan.settle(&tables, volume.is_integer());
             let (main_grid, counts) = (Some(main.volume.grid()), &mut Counts::default());
             let assets = Assets::load(source, &mut tables, &mut plan, &volume, main_grid, counts, &mut failures);
             Failures::check(std::mem::take(&mut failures))?;
@@ -164,7 +165,7 @@ impl Objects {
             plan,
             function: part.assets.function.clone().unwrap_or_else(|| Arc::new(Function::nothing())),
             grid: &part.grid,
-            is_integer: is_integer(&part.volume),
+            is_integer: part.volume.is_integer(),
             range: part.tables.volume.range.unwrap_or_else(|| part.volume.range()),
         });
         let facts: Vec<PartFacts<'_>> = facts.collect();
@@ -201,7 +202,7 @@ impl ObjectPart {
         }
         let mut plan = plan_for(&of_part, RenderTarget::Picture);
         plan.add_meetings(scene, self.object, self.role);
-        plan.settle(&of_part, is_integer(&self.volume));
+        plan.settle(&of_part, self.volume.is_integer());
         (of_part, plan)
     }
 }

@@ -6,10 +6,10 @@ use crate::job::{Job, pen_named};
 use drypoint_output::encode::hex;
 use drypoint_reference::dot_colors::{VoxelColors, nearest, palette, split};
 use drypoint_reference::labels::Labels;
-use drypoint_scene::color::{Rgb, Rgba, linear_to_oklab};
+use drypoint_scene::color::{Rgb, Rgba};
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::points::Points;
-use drypoint_scene::tables::{DotColor, Mix, Scene, Stipples};
+use drypoint_scene::tables::{DotColor, Mix, Scene};
 
 /// Most layers of dots if no pens draw the colours of a transfer function.
 const LAYERS: usize = 16;
@@ -25,15 +25,15 @@ pub(super) enum Pens {
 }
 
 impl Pens {
-    /// Chooses the pens of a scene's dots.
+    /// Chooses the pens of a scene's dots, the largest of which are `width` mm wide.
     ///
     /// # Errors
     /// An unknown pen.
-    pub(super) fn new(scene: &Scene, stipples: &Stipples, page: &Page) -> Result<Self, Failure> {
-        let width = page.length(stipples.size).unwrap_or_default();
-        let Some(name) = &stipples.pen else {
+    pub(super) fn new(scene: &Scene, width: f64, page: &Page) -> Result<Self, Failure> {
+        let stipples = scene.stipples.as_ref();
+        let Some(name) = stipples.and_then(|stipples| stipples.pen.as_ref()) else {
             let pens = Pen::of(&scene.pens, page);
-            return Ok(match stipples.color {
+            return Ok(match stipples.map_or(DotColor::Transfer, |stipples| stipples.color) {
                 DotColor::Fixed(color) => Self::One(Pen { number: 1, name: "stipples".into(), width, color }, None),
                 DotColor::Transfer | DotColor::Label if pens.is_empty() => Self::Few(width),
                 DotColor::Transfer | DotColor::Label => Self::Nearest(pens),
@@ -66,9 +66,7 @@ impl Pens {
                 (pens, false, of)
             }
         };
-        let lightness = |pen: &Pen| linear_to_oklab(rgb(pen.color))[0];
-        let darkest = pens.iter().min_by(|a, b| lightness(a).total_cmp(&lightness(b)));
-        let line_pen = if nibs { darkest } else { pens.last() };
+        let line_pen = if nibs { Pen::darkest(&pens) } else { pens.last() };
         // Both have at least one pen.
         let line_pen = line_pen.cloned().unwrap_or(Pen { number: 1, name: String::new(), width: 0.0, color: [0.0; 4] });
         let layers = split(&points, &of, pens.len());

@@ -174,8 +174,7 @@ impl Stage {
 
     /// The scene with nothing left to decide, seen by a camera.
     pub(crate) fn resolved(&self, view: View) -> Shot {
-        let facts =
-            VolumeFacts { grid: self.volume.grid(), is_integer: self.volume.voxels().voxel_type().is_integer() };
+        let facts = VolumeFacts { grid: self.volume.grid(), is_integer: self.volume.is_integer() };
         let mut scene = self.scene.clone();
         if let Some(iso) = scene.surface.as_mut().map(|surface| &mut surface.iso).filter(|iso| **iso == Iso::Auto) {
             *iso = Iso::Value(suggest::iso(&self.volume, &self.scene.volume, &mut Counts::default()));

@@ -2,17 +2,17 @@
 
 use crate::common::{ball, volume};
 use crate::stability::{Case, Theme, differing, worst};
-use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess, StippleInputs};
-use drypoint::scene::clip::NO_PLANES;
+use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::{Dot, Page};
 use drypoint::scene::philox;
 use drypoint::scene::points::{PointVoxel, Points};
+use drypoint::scene::shot::StippleParams;
+use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Boundary, Camera, Distance, Interior, Length, LightDirection, Lighting, Resolution, Stipples, Threshold,
-    VolumeSource, VolumeTable,
+    Boundary, Camera, Distance, Interior, Length, Lighting, Resolution, Scene, Stipples, Threshold, VolumeSource,
 };
 use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
@@ -101,27 +101,23 @@ fn stipples() {
     THEME.hold();
 }
 
+fn params(stipples: &Stipples, grid: &Grid, view: &View) -> StippleParams {
+    let scene = Scene::for_volume(VolumeSource::File { path: "test.nrrd".into(), raw: None });
+    StippleParams { near: 0.5, ..StippleParams::new(&scene, stipples, grid, view.clone()).unwrap() }
+}
+
 fn made(volume: &Volume, stipples: &Stipples) -> Points {
     let view = View::new(&Camera::default(), volume.grid(), [200, 200]).unwrap();
-    let table = VolumeTable::new(VolumeSource::File { path: "test.nrrd".into(), raw: None });
-    let inputs = StippleInputs { stipples, table: &table, volume, view: &view, near: 0.5, square: 1.0, tone: None };
-    Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
+    Preprocess::new(params(stipples, volume.grid(), &view), volume, None)
+        .unwrap()
+        .points(&mut Counts::default(), &|_| {})
+        .unwrap()
 }
 
 fn drawn(points: &Points, stipples: &Stipples, view: &View) -> Vec<Dot> {
-    let frames = Frames::new(FrameInputs {
-        stipples,
-        points,
-        light: LightDirection::Head,
-        grid: &points.grid,
-        reference: view,
-        near: 0.5,
-        size: 0.5,
-        nib: None,
-        surface: None,
-        clip: &NO_PLANES,
-        tone: None,
-    });
+    let grid = &points.grid;
+    let stipples = StippleParams { size: 0.5, ..params(stipples, grid, view) };
+    let frames = Frames::new(FrameInputs { stipples, points, grid, nib: None, surface: None, tone: None });
     let mut drawn = FrameDots::default();
     frames.draw(view, &Page::in_pixels(view.size, 0.0, 254.0), &mut drawn);
     drawn.to_vec()

@@ -60,7 +60,7 @@ fn output_knows_no_volume() {
 }
 
 #[test]
-fn rays_and_strokes_read_no_table_of_a_scene() {
+fn rays_and_marks_read_no_table_of_a_scene() {
     let rooms = [
         "field",
         "interactive_volume_illustration",
@@ -69,6 +69,7 @@ fn rays_and_strokes_read_no_table_of_a_scene() {
         "style_transfer_functions",
         "surface",
         "transfer",
+        "volume_stippling",
         "volumetric_halos",
     ];
     for room in rooms {

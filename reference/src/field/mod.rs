@@ -103,7 +103,7 @@ impl<'v, R: Real> Field<'v, R> {
     /// # Errors
     /// Any of [`FieldError`], for every rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
-        let is_integer = volume.voxels().voxel_type().is_integer();
+        let is_integer = volume.is_integer();
         let how = Reconstruction { hessian: how.hessian.resolved(how.kernel, is_integer)?, ..how };
         let grid = volume.grid();
         let stencils = Stencils::new::<R>(volume);

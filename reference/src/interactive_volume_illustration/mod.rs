@@ -9,6 +9,7 @@
 //! eye, and [`ViewOpacity`] makes them more opaque.
 
 pub mod directions;
+mod hatching;
 mod outlines;
 mod seeds;
 mod sight;
@@ -19,11 +20,12 @@ pub use directions::{
     DirectionEstimator, DirectionInterpolation, DirectionStorage, PrincipalDirections, ReferenceField, Thresholds,
     deviation, longest_axis,
 };
-pub use outlines::{CreaseStrokes, OutlineStrokes, before_cusps, creases, outlines};
-pub use seeds::{LargestMeasure, Pyramid, Seed, SeedRule, Seeds, VoxelMeasure, gradient_range};
+pub use hatching::{GrownHatching, Hatching, SHORTEST, VisibleValues};
+pub use outlines::{CreaseStrokes, OutlineStrokes, Outlines, before_cusps, creases, outlines};
+pub use seeds::{LargestMeasure, Pyramid, Seed, SeedRule, Seeds, VoxelMeasure, gradient_range, seed_layers};
 pub use sight::{
-    GappedLines, Joining, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, dash_vertices, dashed, drawn,
-    gapped, grain, joined, without_doubles,
+    GappedLines, Joining, PenState, Sight, StrokePoint, StyledStroke, VisibleLines, cut_gaps, dash_vertices, dashed,
+    drawn, gapped, grain, joined, largest_scale, without_doubles,
 };
 pub use strokes::{
     CurvatureFamily, DirectionCounts, GrownStrokes, HatchCounts, HatchParams, NoDirection, NormalCone, PackedStrokes,

@@ -1,7 +1,7 @@
 //! Selection of the surfaces in a volume's first picture.
 
 use super::levels::{LEVELS, Level, Levels};
-use drypoint_scene::tables::Outside;
+use drypoint_scene::shot::Outside;
 use drypoint_scene::volume::Volume;
 
 /// A surface to show, in data values.

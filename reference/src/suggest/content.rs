@@ -2,7 +2,7 @@
 
 use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::parallel;
-use drypoint_scene::tables::Outside;
+use drypoint_scene::shot::Outside;
 use drypoint_scene::volume::{Access, Volume, Voxel};
 use drypoint_scene::with_access;
 

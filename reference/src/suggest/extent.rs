@@ -116,8 +116,8 @@ impl Neighbourhood {
 mod tests {
     use super::super::tests::{radius, volume};
     use super::*;
+    use drypoint_scene::shot::Outside;
     use drypoint_scene::space::Grid;
-    use drypoint_scene::tables::Outside;
     use drypoint_scene::volume::Voxels;
 
     fn reached<const N: usize>(volume: &Volume, value: f64, gradients: [DVec3; N]) -> [f64; N] {

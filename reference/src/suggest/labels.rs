@@ -12,7 +12,7 @@ const BETWEEN: f64 = 0.1;
 
 /// Whether the voxels are ids of parts: integers, mostly equal to their neighbours, that jump where they change.
 pub(super) fn are_ids(volume: &Volume) -> bool {
-    if !volume.voxels().voxel_type().is_integer() || volume.range()[1] <= 0.0 {
+    if !volume.is_integer() || volume.range()[1] <= 0.0 {
         return false;
     }
     let c = with_access!(volume, |a| count(volume, a));

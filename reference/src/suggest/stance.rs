@@ -122,7 +122,7 @@ mod tests {
     use super::super::content::ContentRange;
     use super::super::tests::volume;
     use super::*;
-    use drypoint_scene::tables::Outside;
+    use drypoint_scene::shot::Outside;
 
     const INSIDE: ContentRange = ContentRange { value: 0.5, outside: Outside::Low };
 

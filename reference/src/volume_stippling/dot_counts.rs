@@ -1,7 +1,7 @@
 //! Numbers and sizes of a voxel's dots, from its share of points: eqs. 2 and 4 ([STIP-5], [STIP-6]).
 
 use drypoint_scene::blue_noise;
-use drypoint_scene::tables::Ink;
+use drypoint_scene::shot::stipples::Ink;
 
 /// The dots of a voxel, a prefix of its list of points.
 #[derive(Clone, Copy, Debug, PartialEq)]

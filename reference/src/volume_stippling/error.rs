@@ -8,16 +8,9 @@ pub enum StippleError {
     /// The volume does not make a field.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// A length is in the wrong space: `stipples.slab` or `camera.near` on the page, or `stipples.size` in the world.
-    /// A scene file cannot cause this error.
-    #[error("{key} has a unit that does not fit its space")]
-    Length {
-        /// The key.
-        key: &'static str,
-    },
-    /// The iso-value of the points is still to be found. A job finds it.
-    #[error("the iso-value was not found")]
-    Iso,
+    /// The length `stipples.slab` is on the page. A scene file cannot cause this error.
+    #[error("stipples.slab is a length on the page, not in the volume")]
+    Slab,
     /// The volume has more voxels than the ordering of points can index.
     #[error("{voxels} voxels are above the threshold, and at most {most} can have points")]
     TooMany {

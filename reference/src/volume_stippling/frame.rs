@@ -6,13 +6,13 @@ use super::elimination::{DotCandidate, eliminate};
 use super::factors::{CameraFactors, FixedFactors, VolumeExtent};
 use super::hidden::{self, HiddenPoints};
 use crate::surface::IsoSurface;
-use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::glam::{DMat3, DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Page};
 use drypoint_scene::parallel;
 use drypoint_scene::points::{Points, SurfacePoint};
+use drypoint_scene::shot::StippleParams;
+use drypoint_scene::shot::stipples::Even;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Even, LightDirection, Stipples};
 use drypoint_scene::tone::Tone;
 use drypoint_scene::view::View;
 use std::sync::Arc;
@@ -25,19 +25,15 @@ const PART: usize = 2048;
 /// Data that all frames share.
 #[derive(Clone, Debug)]
 pub struct Frames<'a> {
-    stipples: &'a Stipples,
+    stipples: StippleParams,
     points: &'a Points,
     /// The camera-independent factors of each voxel.
     still: Vec<FixedFactors>,
-    light: LightDirection,
     centre: DVec3,
     radius: f64,
     reference: f64,
-    near: f64,
-    size: f64,
     nib: Option<f64>,
     surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    clip: &'a ClipPlanes,
     tone: Option<PenTone<'a>>,
 }
 
@@ -66,26 +62,16 @@ impl PenTone<'_> {
 /// The inputs of frames.
 #[derive(Clone, Debug)]
 pub struct FrameInputs<'a> {
-    /// The table `[stipples]`.
-    pub stipples: &'a Stipples,
+    /// How dots are drawn.
+    pub stipples: StippleParams,
     /// The points from the preprocess.
     pub points: &'a Points,
-    /// The scene's light.
-    pub light: LightDirection,
     /// The volume's own grid; eqs. 7 and 8 use its centre and radius.
     pub grid: &'a Grid,
-    /// The reference camera, the scene's first ([STIP-3]).
-    pub reference: &'a View,
-    /// The near distance of a perspective camera, in world units.
-    pub near: f64,
-    /// S_max in mm.
-    pub size: f64,
     /// Width of the pen's nib in mm, if a pen draws. A pen has one size ([STIP-6]).
     pub nib: Option<f64>,
     /// The surface that hides points; none if points are transparent ([STIP-15]).
     pub surface: Option<Arc<IsoSurface<'a, 'a>>>,
-    /// Planes that cut points away ([RAY-8]).
-    pub clip: &'a ClipPlanes,
     /// The pen's tone curve, if it was measured ([STIP-17]).
     pub tone: Option<PenTone<'a>>,
 }
@@ -166,23 +152,20 @@ impl FrameDots {
 impl<'a> Frames<'a> {
     /// Computes the camera-independent factors.
     pub fn new(inputs: FrameInputs<'a>) -> Self {
-        let FrameInputs { stipples, points, light, grid, reference, near, size, nib, surface, clip, tone } = inputs;
+        let FrameInputs { stipples, points, grid, nib, surface, tone } = inputs;
         let centre = grid.centre();
+        let still = parallel::gather(points.voxels.len(), 64, &|run, still| {
+            still.extend(points.voxels[run].iter().map(|voxel| FixedFactors::new(&stipples, voxel, &points.grid)));
+        });
         Self {
-            stipples,
+            still,
             points,
-            still: parallel::gather(points.voxels.len(), 64, &|run, still| {
-                still.extend(points.voxels[run].iter().map(|voxel| FixedFactors::new(stipples, voxel, &points.grid)));
-            }),
-            light,
             centre,
             radius: grid.radius(),
-            reference: viewing_distance(reference, centre, near),
-            near,
-            size,
+            reference: viewing_distance(&stipples.view, centre, stipples.near),
+            stipples,
             nib,
             surface,
-            clip,
             tone,
         }
     }
@@ -192,7 +175,7 @@ impl<'a> Frames<'a> {
     pub fn draw(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
         self.candidates(view, page, drawn);
         if let Some(surface) = self.surface.as_deref() {
-            let hidden = HiddenPoints::new(surface, view, self.near);
+            let hidden = HiddenPoints::new(surface, view, self.stipples.near);
             parallel::chunks_mut(&mut drawn.parts, 1, &|_, parts| {
                 parts.iter_mut().for_each(|part| part.leave_out(|point| hidden.hides(point)));
             });
@@ -207,9 +190,9 @@ impl<'a> Frames<'a> {
 
     /// Draws dots like [`draw`](Self::draw), with those that the surface hides.
     pub fn candidates(&self, view: &View, page: &Page, drawn: &mut FrameDots) {
-        let whole =
-            VolumeExtent { centre: self.centre, radius: self.radius, reference: self.reference, near: self.near };
-        let moving = CameraFactors::new(self.stipples, self.light, view, &whole);
+        let &Self { ref stipples, centre, radius, reference, .. } = self;
+        let whole = VolumeExtent { centre, radius, reference, near: stipples.near };
+        let moving = CameraFactors::new(stipples, view, &whole);
         let place = IndexToPage::new(view, page, &self.points.grid);
         let parts = self.points.voxels.len().div_ceil(PART);
         drawn.parts.resize_with(parts, FramePart::default);
@@ -239,11 +222,11 @@ impl<'a> Frames<'a> {
         let whole_list = self.still[i].piece * (self.points.full / each as f64);
         // Eq. 2: the share T of the list. A pen has one size, so its ink N_i·S_i² decides the number of dots instead.
         let (share, size, unit) = match self.nib {
-            None => (factors.count * whole_list, size, self.size),
+            None => (factors.count * whole_list, size, self.stipples.size),
             Some(nib) => {
                 let ink = factors.count * (size * size);
                 let ink = self.tone.map_or(ink, |tone| tone.share(ink));
-                let (share, size) = with_nib(ink * whole_list, self.size / nib);
+                let (share, size) = with_nib(ink * whole_list, self.stipples.size / nib);
                 (share, size, nib)
             }
         };
@@ -268,9 +251,9 @@ impl<'a> Frames<'a> {
         let list = &self.points.of(i)[..listed];
         for (k, offset) in list.iter().enumerate() {
             let o = DVec3::from_array(offset.map(f64::from));
-            if let Some(on_page) = place.on_page(at + place.to_eye * o, self.near) {
+            if let Some(on_page) = place.on_page(at + place.to_eye * o, self.stipples.near) {
                 let world = place.world(centre + o);
-                if self.clip.cut_in_world(world) {
+                if self.stipples.clip.cut_in_world(world) {
                     continue;
                 }
                 if let Some(reach) = reach {

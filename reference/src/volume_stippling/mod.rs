@@ -28,4 +28,4 @@ pub use elimination::{DotCandidate, eliminate};
 pub use error::StippleError;
 pub use frame::{FrameDots, FrameInputs, Frames, PenTone, choose_on_page, viewing_distance};
 pub use hidden::{hides, seen};
-pub use preprocess::{Preprocess, StippleInputs};
+pub use preprocess::Preprocess;

@@ -10,18 +10,15 @@ use super::order::{self, Sites};
 use super::resolution::boxes;
 use super::ridge::{Norms, step, to_edge};
 use super::surface_layer::SurfaceLayer;
-use crate::field::{Field, GradientEstimator, Reconstruction, Rung, Sampler};
+use crate::field::{Field, Reconstruction, Rung, Sampler};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::parallel;
 use drypoint_scene::points::{PointVoxel, Points};
-use drypoint_scene::tables::{
-    DotDensity, GradientRange, Iso, Outside, PointsPerPixel, Snap, StippleGradient, StippleOrder, Stipples, Threshold,
-    VolumeTable,
-};
+use drypoint_scene::shot::stipples::{DotDensity, PointsPerPixel, Snap, StippleOrder, Threshold};
+use drypoint_scene::shot::{GradientRange, Outside, StippleParams};
 use drypoint_scene::tone::{FULL, Tone};
-use drypoint_scene::view::View;
 use drypoint_scene::volume::Volume;
 use std::borrow::Cow;
 
@@ -29,30 +26,12 @@ use std::borrow::Cow;
 /// on the page in one direction, and even ones must be chosen from more ([STIP-21]).
 const SPARE: f64 = 2.0;
 
-/// The inputs from which points are made.
-#[derive(Clone, Copy, Debug)]
-pub struct StippleInputs<'a> {
-    /// The table `[stipples]`.
-    pub stipples: &'a Stipples,
-    /// The table `[volume]`: ranges, and the side that is outside.
-    pub table: &'a VolumeTable,
-    /// The data.
-    pub volume: &'a Volume,
-    /// The reference camera, the scene's first ([STIP-3]).
-    pub view: &'a View,
-    /// The near distance of a perspective camera, in world units.
-    pub near: f64,
-    /// The unit of A_vol: the side of a square in pixels, 1 or S_max ([STIP-3]).
-    pub square: f64,
-    /// The tone curve of a pen, or of discs of S_max, and the area of S_max in pixels. It is given if tone is needed:
-    /// with `k_max = "auto"` or a measured pen ([STIP-17]).
-    pub tone: Option<(&'a Tone, f64)>,
-}
-
 /// The voxels of a volume that get points, and the number of these points.
 #[derive(Clone, Debug)]
 pub struct Preprocess<'a> {
-    inputs: StippleInputs<'a>,
+    stipples: StippleParams,
+    /// The data.
+    data: &'a Volume,
     /// The volume at the adjusted resolution ([STIP-2]).
     volume: Cow<'a, Volume>,
     voxels: Vec<PointVoxel>,
@@ -78,26 +57,24 @@ pub struct Preprocess<'a> {
 }
 
 impl<'a> Preprocess<'a> {
-    /// Finds the voxels above the threshold. A constant volume has none.
+    /// Finds the voxels above the threshold. A constant volume has none. `tone` is the tone curve of a pen, or of discs of
+    /// S_max. It is given if tone is needed: with `k_max = "auto"` or a measured pen ([STIP-17]).
     ///
     /// # Errors
     /// The volume makes no field, a length is in the wrong space, or there are too many voxels or points per voxel.
-    pub fn new(inputs: StippleInputs<'a>) -> Result<Self, StippleError> {
-        let StippleInputs { stipples, table, volume, view, near, square, tone } = inputs;
-        if stipples.iso == Some(Iso::Auto) {
-            return Err(StippleError::Iso);
-        }
+    pub fn new(stipples: StippleParams, data: &'a Volume, tone: Option<&Tone>) -> Result<Self, StippleError> {
+        let (volume, &StippleParams { ref view, near, square, dot_area, .. }) = (data, &stipples);
         // 4.2: the resolution, adjusted to the projected area.
         let area = projected_area(volume.grid(), view, near) / (square * square);
         let m = stipples.box_side.map_or_else(|| box_side(area, volume.dims()), |m| m as usize);
         let fine = volume.range();
         let (volume, m) = boxes(volume, m).map_or((Cow::Borrowed(volume), 1), |boxed| (Cow::Owned(boxed), m));
         // In voxels of the grid in which points are made.
-        let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Length { key: "stipples.slab" })?;
+        let slab = stipples.slab.world(volume.grid()).ok_or(StippleError::Slab)?;
         // 4.1: gradients, and the voxels above the threshold.
-        let field = field_of(&volume, stipples.gradient, table.outside)?;
-        let range = table.range.unwrap_or(fine);
-        let BoundaryVoxels { voxels, to_edge, layers } = above(&field, &inputs, range);
+        let field = field_of(&volume, &stipples)?;
+        let range = stipples.range.unwrap_or(fine);
+        let BoundaryVoxels { voxels, to_edge, layers } = above(&field, &stipples, tone.is_some(), range);
         // Voxels per pixel of a face seen from the front.
         let density = |layers: f64| {
             let pixel =
@@ -111,14 +88,14 @@ impl<'a> Preprocess<'a> {
                 let thickness = if stipples.is_thin() { mean_thickness(volume.grid(), view, near) } else { 1.0 };
                 points_each(k_max, area, volume.dims()) as f64 * thickness
             }
-            (PointsPerPixel::Auto, Some((tone, dot))) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot),
+            (PointsPerPixel::Auto, Some(tone)) => tone.ink_of_layers(FULL, layers) / (density(layers) * dot_area),
             // Dots of size 0 print nothing, however many there are.
             (PointsPerPixel::Auto, None) => 1.0,
         };
         // `as` saturates. A number that exceeds memory is refused before any allocation.
         let spare = if stipples.density == DotDensity::Page { SPARE } else { 1.0 };
         let each = ((spare * full).ceil() as usize).max(1);
-        let ink = tone.map_or(0.0, |(_, dot)| full * density(layers) * dot);
+        let ink = tone.map_or(0.0, |_| full * density(layers) * dot_area);
         if voxels.len() > order::MOST_VOXELS {
             return Err(StippleError::TooMany { voxels: voxels.len(), most: order::MOST_VOXELS });
         }
@@ -126,7 +103,21 @@ impl<'a> Preprocess<'a> {
             return Err(StippleError::TooDense { each, most: order::MOST_EACH });
         }
         let gradients = volume.grid().len() as u64;
-        Ok(Self { inputs, volume, voxels, to_edge, slab, area, box_side: m, each, full, ink, layers, gradients })
+        Ok(Self {
+            stipples,
+            data,
+            volume,
+            voxels,
+            to_edge,
+            slab,
+            area,
+            box_side: m,
+            each,
+            full,
+            ink,
+            layers,
+            gradients,
+        })
     }
 
     /// The voxels whose ‖∇V‖ exceeds `magnitude`, at the adjusted resolution, regardless of the threshold of points.
@@ -136,20 +127,19 @@ impl<'a> Preprocess<'a> {
     /// Only errors that [`new`](Self::new) has already found.
     pub fn voxels_above(&self, magnitude: f64) -> Result<Vec<PointVoxel>, StippleError> {
         let threshold = Threshold::Magnitude(magnitude);
-        let stipples = Stipples { threshold, thin: false, snap: Snap::None, ..self.inputs.stipples.clone() };
+        let stipples = StippleParams { threshold, thin: false, snap: Snap::None, ..self.stipples.clone() };
         self.above(&stipples).map(|above| above.voxels)
     }
 
     /// The voxels above the threshold of other stipples.
-    fn above(&self, stipples: &Stipples) -> Result<BoundaryVoxels, StippleError> {
-        let inputs = StippleInputs { stipples, tone: None, ..self.inputs };
-        let field = field_of(&self.volume, stipples.gradient, self.inputs.table.outside)?;
-        Ok(above(&field, &inputs, self.range()))
+    fn above(&self, stipples: &StippleParams) -> Result<BoundaryVoxels, StippleError> {
+        let field = field_of(&self.volume, stipples)?;
+        Ok(above(&field, stipples, false, self.range()))
     }
 
     /// Values for V = 0 and 1 ([VAL-1]).
     fn range(&self) -> [f64; 2] {
-        self.inputs.table.range.unwrap_or(self.inputs.volume.range())
+        self.stipples.range.unwrap_or(self.data.range())
     }
 
     /// The camera-independent candidates for curves. Returns none if the scene has no curves. With `thin` and `snap`
@@ -158,14 +148,14 @@ impl<'a> Preprocess<'a> {
     /// # Errors
     /// Only errors that [`new`](Self::new) has already found.
     pub fn edges(&self, counts: &mut Counts) -> Result<Option<CurveVoxels>, StippleError> {
-        let Some(curves) = &self.inputs.stipples.curves else { return Ok(None) };
+        let Some(curves) = &self.stipples.curves else { return Ok(None) };
         let threshold = Threshold::Magnitude(curves.grad);
         let BoundaryVoxels { voxels, to_edge, .. } =
-            self.above(&Stipples { threshold, ..self.inputs.stipples.clone() })?;
+            self.above(&StippleParams { threshold, ..self.stipples.clone() })?;
         // ‖∇V‖ is computed again, and LoG once to find its largest value.
         *counts.preprocess.entry("stipple gradients".into()).or_default() += self.gradients;
         counts.preprocess.insert("curve Hessians".into(), self.gradients);
-        let edges = CurveVoxels::new(&self.volume, &voxels, curves, self.inputs.table.outside, self.range())?;
+        let edges = CurveVoxels::new(&self.volume, &voxels, curves, self.stipples.outside, self.range())?;
         Ok(Some(if to_edge.is_empty() { edges } else { edges.snapped(&voxels, &to_edge) }))
     }
 
@@ -195,7 +185,7 @@ impl<'a> Preprocess<'a> {
     /// # Errors
     /// Only errors that [`new`](Self::new) has already found.
     pub fn points(&self, counts: &mut Counts, done: &(dyn Fn(usize) + Sync)) -> Result<Points, StippleError> {
-        let stipples = self.inputs.stipples;
+        let stipples = &self.stipples;
         let grid = self.volume.grid();
         let cells: Vec<[u32; 3]> = self.voxels.iter().map(|voxel| voxel.cell).collect();
         let normals: Vec<DVec3> = self.voxels.iter().map(|voxel| voxel.normal).collect();
@@ -221,16 +211,9 @@ impl<'a> Preprocess<'a> {
 }
 
 /// The field with the estimator of [STIP-1], prepared for gradients.
-fn field_of(volume: &Volume, gradient: StippleGradient, outside: Outside) -> Result<Field<'_, f64>, StippleError> {
-    let how = Reconstruction { gradient: estimator(gradient), outside, ..Reconstruction::default() };
-    Ok(Field::new(volume, how, Rung::Gradient)?)
-}
-
-fn estimator(gradient: StippleGradient) -> GradientEstimator {
-    match gradient {
-        StippleGradient::Regression => GradientEstimator::Regression,
-        StippleGradient::Central => GradientEstimator::Central,
-    }
+fn field_of<'a>(volume: &'a Volume, stipples: &StippleParams) -> Result<Field<'a, f64>, StippleError> {
+    let &StippleParams { gradient, outside, .. } = stipples;
+    Ok(Field::new(volume, Reconstruction { gradient, outside, ..Reconstruction::default() }, Rung::Gradient)?)
 }
 
 /// Voxels above the threshold, with measurements.
@@ -243,16 +226,16 @@ struct BoundaryVoxels {
     layers: f64,
 }
 
-/// Finds the voxels above the threshold. `range` holds the values for V = 0 and 1.
-fn above(field: &Field<'_, f64>, inputs: &StippleInputs<'_>, range: [f64; 2]) -> BoundaryVoxels {
+/// Finds the voxels above the threshold. `range` holds the values for V = 0 and 1. `prints` says whether tone is needed.
+fn above(field: &Field<'_, f64>, stipples: &StippleParams, prints: bool, range: [f64; 2]) -> BoundaryVoxels {
     let volume = field.volume();
-    let (stipples, dims) = (inputs.stipples, volume.dims());
+    let dims = volume.dims();
     // ‖∇V‖ of every voxel, its range and its threshold.
     let norms = norms(field);
     let bound = field.no_normal_below();
     let quantile = |q| quantile_above(&norms, bound, q).unwrap_or(0.0);
     let scaled = |norm: f64| math::scale_by_power_of_two(norm, -field.scale_exponent());
-    let [lo, hi] = match inputs.table.gradient_range {
+    let [lo, hi] = match stipples.gradient_range {
         GradientRange::Fixed(range) => range.map(scaled),
         GradientRange::Quantile(q) => [0.0, quantile(q)],
     };
@@ -267,12 +250,9 @@ fn above(field: &Field<'_, f64>, inputs: &StippleInputs<'_>, range: [f64; 2]) ->
     // Voxels above the threshold, or at the surface. A thin layer keeps only those on the ridge.
     let grid = volume.grid();
     let to_step = |normal: DVec3| step(grid, normal, stipples.is_thin());
-    let outward = if inputs.table.outside == Outside::Low { -1.0 } else { 1.0 };
+    let outward = if stipples.outside == Outside::Low { -1.0 } else { 1.0 };
     // The layer of one surface in place of all boundaries ([STIP-20]).
-    let layer = match stipples.iso {
-        Some(Iso::Value(iso)) => Some(SurfaceLayer { volume, iso }),
-        Some(Iso::Auto) | None => None,
-    };
+    let layer = stipples.iso.map(|iso| SurfaceLayer { volume, iso });
     let bells = layer.map(|layer| layer.bells(&norms, field.scale_exponent(), bound));
     let ridge = Norms { dims, all: bells.as_ref().unwrap_or(&norms) };
     let is_above = |cell, norm| norm > bound && layer.map_or_else(|| exceeds(norm), |layer| layer.crosses(cell));
@@ -313,7 +293,7 @@ fn above(field: &Field<'_, f64>, inputs: &StippleInputs<'_>, range: [f64; 2]) ->
         Vec::new()
     };
     // A thin face has one layer. Its voxels draw points in proportion to their pieces of the face.
-    let layers = if inputs.tone.is_some() && !stipples.is_thin() {
+    let layers = if prints && !stipples.is_thin() {
         let to_step = grid.inverse_axes() * grid.voxel();
         let steps: Vec<([u32; 3], DVec3)> = voxels.iter().map(|v| (v.cell, to_step * v.normal)).collect();
         layers(dims, &norms, |norm| norm > bound && exceeds(norm), &steps)

@@ -1,6 +1,7 @@
 //! Pens.
 
 use super::Page;
+use crate::color::linear_to_oklab;
 use crate::tables::PenSettings;
 
 /// The pen that draws a layer: one of `[[pen]]`, or the colour that an effect has instead ([IO-7]).
@@ -28,6 +29,12 @@ impl Pen {
         pens.iter().enumerate().map(pen).collect()
     }
 
+    /// Returns the pen of the least lightness in OKLab, the first of equals; none of no pens.
+    pub fn darkest(pens: &[Self]) -> Option<&Self> {
+        let lightness = |pen: &&Self| linear_to_oklab([0, 1, 2].map(|c| pen.color[c]))[0];
+        pens.iter().min_by(|a, b| lightness(a).total_cmp(&lightness(b)))
+    }
+
     /// The layer's name for plotters: number, name and width, such as `1-black 0.3`; the first digits are the number.
     pub fn label(&self) -> String {
         format!("{}-{} {}", self.number, self.name, self.width)
@@ -47,6 +54,20 @@ mod tests {
         let pens = [Length::Pixels(2.0), Length::Millimetres(0.35), Length::Pixels(1e-6)].map(pen);
         let found: Vec<(usize, f64)> = Pen::of(&pens, &page).iter().map(|pen| (pen.number, pen.width)).collect();
         assert_eq!(found, [(1, 0.169), (2, 0.35), (3, 0.001)]);
+    }
+
+    /// Blue is darker than red, and red than yellow, though a colour's opacity counts for nothing.
+    #[test]
+    fn the_darkest_pen_has_the_least_lightness() {
+        let pen = |name: &str, color| Pen { number: 1, name: name.into(), width: 0.1, color };
+        let pens = [
+            pen("yellow", [1.0, 1.0, 0.0, 1.0]),
+            pen("blue", [0.0, 0.0, 1.0, 1.0]),
+            pen("red", [1.0, 0.0, 0.0, 1.0]),
+            pen("other blue", [0.0, 0.0, 1.0, 0.1]),
+        ];
+        assert_eq!(Pen::darkest(&pens).map(|pen| &*pen.name), Some("blue"));
+        assert_eq!(Pen::darkest(&[]), None);
     }
 
     #[test]

@@ -2,12 +2,12 @@
 
 use super::{
     HaloAccumulation, HaloKind, HaloSource, Outside, ProfileNode, SampleQuery, SeedDirection, SeedValue, ShotError,
-    query,
+    iso_value, query,
 };
 use crate::plan::{Plan, halos_in_effect};
 use crate::space::Grid;
 use crate::tables::{
-    FocusPoints, Halo, Iso, LabelKey, Length, PartName, PictureSettings, Scene, SeedBy, Seeding, Spreading,
+    FocusPoints, Halo, LabelKey, Length, PartName, PictureSettings, Scene, SeedBy, Seeding, Spreading,
 };
 use crate::transfer::Function;
 use glam::DVec3;
@@ -248,7 +248,7 @@ fn seed_value(seed: &Seeding, scene: &Scene) -> Result<Option<SeedValue>, ShotEr
     let Some(surface) = scene.surface.as_ref().filter(|_| scene.transfer.is_none()) else {
         return Ok(Some(SeedValue::Opacity));
     };
-    let Iso::Value(iso) = surface.iso else { return Err(ShotError::NoIso) };
+    let iso = iso_value(surface.iso, "surface.iso")?;
     // The later of two nodes at one value holds there. The iso-value itself is inside.
     Ok(Some(SeedValue::Nodes(match scene.volume.outside {
         Outside::Low => vec![[iso, 0.0], [iso, 1.0]],
@@ -482,7 +482,7 @@ mod tests {
         let high = vec![[12.0, 1.0], [12f64.next_up(), 0.0]];
         assert_eq!(value("[volume]\noutside = \"high\"\n"), Some(SeedValue::Nodes(high)));
         assert_eq!(value(REGULAR), Some(SeedValue::Opacity));
-        assert_eq!(halos("[surface]\n[[halo]]\n"), Err(ShotError::NoIso));
+        assert_eq!(halos("[surface]\n[[halo]]\n"), Err(ShotError::NoIso { key: "surface.iso" }));
     }
 
     #[test]

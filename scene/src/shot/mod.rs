@@ -15,13 +15,14 @@ mod opaque_surface;
 mod out_of_sight;
 mod query;
 mod reconstruction;
+pub mod stipples;
 
 pub use crate::picture::LayerKind;
 pub use crate::tables::contours::Measured;
 pub use crate::tables::{
     Axis, Background, BlendSpace, Cut, Dab, Fuzzy, GradientEstimator, GradientRange, HaloAccumulation, HaloKind,
-    HaloSource, HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, Mix, Number, Outside, ProfileNode,
-    Role, SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
+    HaloSource, HessianEstimator, IntersectionOpacity, Kappa, Kernel, LabelLookup, LightDirection, Mix, Number,
+    Outside, ProfileNode, Role, SeedDirection, SeedValue, SphereFrame, StepAlong, Tone, Transparency,
 };
 pub use clipping::{Cap, Clipping};
 pub use combination::{
@@ -39,10 +40,11 @@ pub use opaque_surface::OpaqueSurface;
 pub use out_of_sight::OutOfSight;
 pub use query::{KappaSource, SampleQuery};
 pub use reconstruction::{NotSmooth, Reconstruction, Rung};
+pub use stipples::StippleParams;
 
 use crate::plan::{Pass, Plan, Quantity};
 use crate::space::Grid;
-use crate::tables::{Length, NormalSide, Scene, SignFlip};
+use crate::tables::{Iso, Length, NormalSide, Scene, SignFlip};
 use crate::transfer::Function;
 use crate::view::View;
 use serde::Serialize;
@@ -158,9 +160,18 @@ pub enum ShotError {
     /// The kernel has no second derivatives.
     #[error(transparent)]
     NotSmooth(#[from] NotSmooth),
-    /// The iso-value is still left to the volume.
-    #[error("surface.iso is \"auto\", and no value was found")]
-    NoIso,
+    /// A length of the scene has no size on the page.
+    #[error("{key} is a length in the volume, not on the page")]
+    NotOnPage {
+        /// The scene key.
+        key: &'static str,
+    },
+    /// An iso-value is still left to the volume.
+    #[error("{key} is \"auto\", and no value was found")]
+    NoIso {
+        /// The scene key.
+        key: &'static str,
+    },
     /// The picture of a lighting table was not read.
     #[error("shading.table names a picture that was not read")]
     NoLightingTable,
@@ -206,15 +217,13 @@ impl Shot {
         view: View,
     ) -> Result<Self, ShotError> {
         let sampling = &scene.sampling;
-        let world = |length: Length, key| length.world(facts.grid).ok_or(ShotError::Length { key });
-        let step = world(sampling.step, "sampling.step")?;
+        let step = in_world(sampling.step, "sampling.step", facts.grid)?;
         let object = Object::resolve(scene, plan, facts, function, &view)?;
-        let near = scene.camera.near.map_or(Ok(step), |near| world(near, "camera.near"))?;
         let surface = OpaqueSurface::new(scene, plan, &view)?;
         let halos = Halos::new(scene, plan, facts.grid, &object.function)?;
         let layers = &scene.picture.layers;
         Ok(Self {
-            lattice: Lattice { step, along: sampling.step_along, near },
+            lattice: Lattice { step, along: sampling.step_along, near: near(scene, facts.grid)? },
             rays_across: scene.picture.samples.across(plan.has_equal_rays()),
             refine_above: plan.has_pass(Pass::Refinement).then_some(scene.picture.contrast),
             number: sampling.number,
@@ -276,22 +285,15 @@ impl Object {
         view: &View,
     ) -> Result<Self, ShotError> {
         let sampling = &scene.sampling;
-        let world = |length: Length, key| length.world(facts.grid).ok_or(ShotError::Length { key });
         let hessian = sampling.hessian.resolved(sampling.kernel, facts.is_integer)?;
-        let reconstruction = Reconstruction {
-            kernel: sampling.kernel,
-            gradient: sampling.gradient,
-            hessian,
-            scale: world(sampling.scale, "sampling.scale")?,
-            outside: scene.volume.outside,
-        };
+        let reconstruction = Reconstruction { hessian, ..Reconstruction::of(scene, facts.grid)? };
         let (query, first) = query::of_samples(scene, plan, &function);
         Ok(Self {
             reconstruction,
             rung: Rung::of(plan),
             skip_empty: plan.has_pass(Pass::Bricks),
             label_lookup: scene.volume.label_lookup,
-            reference_length: world(sampling.reference_length, "sampling.reference_length")?,
+            reference_length: in_world(sampling.reference_length, "sampling.reference_length", facts.grid)?,
             gradient_range: plan
                 .needs_anywhere(Quantity::GradientMagnitudeRange)
                 .then_some(scene.volume.gradient_range),
@@ -325,6 +327,36 @@ impl Turn {
             (NormalSide::Facing, SignFlip::TwoSided) => Self::OfLines,
             _ => Self::OfNormals,
         }
+    }
+}
+
+/// Returns the near distance of a perspective camera, in world units: a step where the scene gives none ([RAY-1]).
+///
+/// # Errors
+/// A length on the page.
+pub fn near(scene: &Scene, grid: &Grid) -> Result<f64, ShotError> {
+    match scene.camera.near {
+        Some(near) => in_world(near, "camera.near", grid),
+        None => in_world(scene.sampling.step, "sampling.step", grid),
+    }
+}
+
+/// Returns the length of `key` in world units.
+///
+/// # Errors
+/// A length on the page.
+pub fn in_world(length: Length, key: &'static str, grid: &Grid) -> Result<f64, ShotError> {
+    length.world(grid).ok_or(ShotError::Length { key })
+}
+
+/// Returns the iso-value of `key`.
+///
+/// # Errors
+/// A value that was not found in the data yet.
+pub fn iso_value(iso: Iso, key: &'static str) -> Result<f64, ShotError> {
+    match iso {
+        Iso::Value(value) => Ok(value),
+        Iso::Auto => Err(ShotError::NoIso { key }),
     }
 }
 

@@ -1,9 +1,9 @@
 //! The opaque iso-surface of a picture ([HATCH-14]).
 
-use super::{Illumination, SampleQuery, ShotError, query};
+use super::{Illumination, SampleQuery, ShotError, iso_value, query};
 use crate::picture::LayerKind;
 use crate::plan::{Plan, Quantity};
-use crate::tables::{Iso, Scene, SurfaceLook};
+use crate::tables::{Scene, SurfaceLook};
 use crate::view::View;
 use serde::Serialize;
 
@@ -30,7 +30,7 @@ impl OpaqueSurface {
         let Some(surface) = scene.surface.as_ref().filter(|surface| surface.look != SurfaceLook::None) else {
             return Ok(None);
         };
-        let Iso::Value(iso) = surface.iso else { return Err(ShotError::NoIso) };
+        let iso = iso_value(surface.iso, "surface.iso")?;
         let normal = if plan.needs(Quantity::SurfaceNormal) { SampleQuery::NORMAL } else { SampleQuery::VALUE };
         let of_layers = |layers: [&[LayerKind]; 3]| {
             query::of_layers(scene, layers.map(|any| any.iter().any(|layer| scene.picture.layers.contains(layer))))

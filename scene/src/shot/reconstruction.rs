@@ -1,7 +1,9 @@
 //! How a field is reconstructed from voxels ([REC-1] … [REC-3]), with nothing left to the volume.
 
-use super::{GradientEstimator, HessianEstimator, Kernel, Outside};
+use super::{GradientEstimator, HessianEstimator, Kernel, Outside, ShotError, in_world};
 use crate::plan::{Plan, Quantity};
+use crate::space::Grid;
+use crate::tables::{Sampling, Scene};
 use serde::Serialize;
 
 /// How the field is reconstructed. The default is the papers': trilinear, central differences.
@@ -17,6 +19,18 @@ pub struct Reconstruction {
     pub scale: f64,
     /// Which values lie outside ([NORM-1]).
     pub outside: Outside,
+}
+
+impl Reconstruction {
+    /// Returns the reconstruction of a scene. A Hessian that is left to the volume stays so.
+    ///
+    /// # Errors
+    /// A length on the page.
+    pub fn of(scene: &Scene, grid: &Grid) -> Result<Self, ShotError> {
+        let &Sampling { kernel, gradient, hessian, scale, .. } = &scene.sampling;
+        let scale = in_world(scale, "sampling.scale", grid)?;
+        Ok(Self { kernel, gradient, hessian, scale, outside: scene.volume.outside })
+    }
 }
 
 impl Default for Reconstruction {

@@ -211,6 +211,11 @@ impl Volume {
         self.mask.as_ref()
     }
 
+    /// Whether the file stores integers ([REC-3]).
+    pub fn is_integer(&self) -> bool {
+        self.voxels.voxel_type().is_integer()
+    }
+
     /// Lowest and highest finite value, after slope and intercept.
     pub fn range(&self) -> [f64; 2] {
         self.range

@@ -20,7 +20,7 @@ impl<'a> ShownValues<'a> {
     pub fn new(volume: &Volume, is_shown: &'a (dyn Fn(f64) -> bool + Sync)) -> Self {
         let (slope, intercept) = (volume.slope(), volume.intercept());
         let [lowest, highest] = volume.voxels().range();
-        let few = volume.voxels().voxel_type().is_integer() && highest - lowest < TABLE;
+        let few = volume.is_integer() && highest - lowest < TABLE;
         let steps = if few { (highest - lowest) as usize + 1 } else { 0 };
         let table = (0..steps).map(|i| is_shown(slope * (lowest + i as f64) + intercept)).collect();
         Self { is_shown, slope, intercept, lowest, table }

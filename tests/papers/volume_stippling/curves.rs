@@ -1,13 +1,14 @@
 //! Silhouette curves ([STIP-13]).
 
-use super::{orthographic, table};
+use super::{orthographic, params, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{CurveSegment, CurveVoxels, Preprocess, StippleInputs, exhaustive, joined};
+use drypoint::reference::volume_stippling::{CurveSegment, CurveVoxels, Preprocess, exhaustive, joined};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::data_folders;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
 use drypoint::scene::points::PointVoxel;
+use drypoint::scene::shot::StippleParams;
 use drypoint::scene::tables::{Camera, Curves, CurvesTest, Outside, Snap, Stipples, VolumeTable};
 use drypoint::scene::view::View;
 use drypoint::scene::volume::{Volume, read};
@@ -31,9 +32,8 @@ fn perspective(volume: &Volume) -> View {
 fn voxels(volume: &Volume, view: &View, curves: &Curves) -> Vec<PointVoxel> {
     let (stipples, table) = (Stipples::default(), table());
     // Pixels enough for the resolution to stay as it is.
-    let square = 0.05;
-    let inputs = StippleInputs { stipples: &stipples, table: &table, volume, view, near: 0.5, square, tone: None };
-    Preprocess::new(inputs).unwrap().voxels_above(curves.grad).unwrap()
+    let params = StippleParams { square: 0.05, ..params(&stipples, &table, volume.grid(), view) };
+    Preprocess::new(params, volume, None).unwrap().voxels_above(curves.grad).unwrap()
 }
 
 #[test]
@@ -81,10 +81,8 @@ fn snapped_pieces_lie_where_the_circle_is() {
             let curves = Curves { log: 2.0, ..Curves::default() };
             let edges = |thin| {
                 let stipples = Stipples { snap: Snap::Edge, thin, curves: Some(curves), ..Stipples::default() };
-                let (table, square) = (table(), 0.05);
-                let (stipples, table, volume, view) = (&stipples, &table, &volume, &view);
-                let inputs = StippleInputs { stipples, table, volume, view, near: 0.5, square, tone: None };
-                Preprocess::new(inputs).unwrap().edges(&mut Counts::default()).unwrap().unwrap()
+                let params = StippleParams { square: 0.05, ..params(&stipples, &table(), volume.grid(), &view) };
+                Preprocess::new(params, &volume, None).unwrap().edges(&mut Counts::default()).unwrap().unwrap()
             };
             let all = voxels(&volume, &view, &curves);
             let turned = |v: &PointVoxel| v.normal.angle_between(v.centre() - centre) * (v.centre() - centre).length();
@@ -208,16 +206,8 @@ fn the_laplacian_is_that_of_v() {
             // n·E is below 2 everywhere: the Laplacian alone decides.
             let curves = Curves { test: CurvesTest::Literal, eye: 2.0, grad: 0.1, log, ..Curves::default() };
             let stipples = Stipples { curves: Some(curves), ..Stipples::default() };
-            let inputs = StippleInputs {
-                stipples: &stipples,
-                table: &table,
-                volume: &volume,
-                view: &view,
-                near: 0.5,
-                square: 0.05,
-                tone: None,
-            };
-            let preprocess = Preprocess::new(inputs).unwrap();
+            let params = StippleParams { square: 0.05, ..params(&stipples, &table, volume.grid(), &view) };
+            let preprocess = Preprocess::new(params, &volume, None).unwrap();
             let found = preprocess.edges(&mut Counts::default()).unwrap().unwrap().segments(&curves, &view);
             let found: BTreeSet<_> = found.iter().map(|segment| segment.cell).collect();
             let (mut inside, mut outside) = (0, 0);

@@ -1,13 +1,14 @@
 //! Faces of thin layers where voxels are not cubes: as dense whatever way they lie, and in total as eq. 1 says ([STIP-3],
 //! [STIP-4]).
 
-use super::{drawn_from, made_from, table};
+use super::{drawn_from, params, table};
 use crate::common;
-use drypoint::reference::volume_stippling::{FrameDots, Frames, Preprocess, StippleInputs};
+use drypoint::reference::volume_stippling::{FrameDots, Frames, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::marks::Page;
 use drypoint::scene::math::exp;
+use drypoint::scene::shot::StippleParams;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Camera, Length, PointsPerPixel, Projection, Snap, Stipples, Threshold};
 use drypoint::scene::tone::{FULL, Tone};
@@ -36,10 +37,13 @@ fn faces(spacing: [f64; 3], direction: DVec3, k_max: PointsPerPixel, tone: Optio
         let at = grid.centre() + 0.3 * spacing[axis] * n;
         let volume = common::on(grid.clone(), |p| 1.0 / (1.0 + exp((p - at).dot(n) / (0.6 * spacing[axis]))));
         let unthinned = Stipples { thin: false, ..stipples.clone() };
-        eq_1 = Preprocess::new(StippleInputs { tone, ..made_from(&unthinned, &table, &volume, &view) }).unwrap().each
-            as f64;
-        let preprocess =
-            Preprocess::new(StippleInputs { tone, ..made_from(&stipples, &table, &volume, &view) }).unwrap();
+        let made = |stipples| {
+            let dot_area = tone.map_or(1.0, |(_, dot)| dot);
+            let params = StippleParams { dot_area, ..params(stipples, &table, volume.grid(), &view) };
+            Preprocess::new(params, &volume, tone.map(|(tone, _)| tone)).unwrap()
+        };
+        eq_1 = made(&unthinned).each as f64;
+        let preprocess = made(&stipples);
         assert_eq!(preprocess.box_side, 1);
         let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
         let voxels = DIMS.iter().product::<usize>() / DIMS[axis];

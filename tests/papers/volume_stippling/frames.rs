@@ -1,6 +1,6 @@
 //! What a frame draws of the points ([STIP-5] … [STIP-12], hard cases).
 
-use super::{drawn_from, made_from, orthographic, table};
+use super::{drawn_from, orthographic, params, table};
 use crate::common;
 use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, Preprocess, viewing_distance};
 use drypoint::scene::blue_noise;
@@ -30,7 +30,7 @@ impl Shown {
         let camera = Camera { direction: DVec3::new(0.2, 1.0, -0.3), ..Camera::default() };
         let reference = View::new(&camera, volume.grid(), [200, 200]).unwrap();
         let (stipples, table) = (Stipples::default(), table());
-        let points = Preprocess::new(made_from(&stipples, &table, &volume, &reference))
+        let points = Preprocess::new(params(&stipples, &table, volume.grid(), &reference), &volume, None)
             .unwrap()
             .points(&mut Counts::default(), &|_| {})
             .unwrap();

@@ -13,14 +13,14 @@ mod spectrum;
 mod tone;
 
 use crate::common;
-use drypoint::reference::volume_stippling::{FrameInputs, Preprocess, StippleInputs, viewing_distance};
-use drypoint::scene::clip::NO_PLANES;
+use drypoint::reference::volume_stippling::{FrameInputs, Preprocess, viewing_distance};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
+use drypoint::scene::shot::StippleParams;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{
-    Camera, GradientRange, Ink, Length, LightDirection, PointsPerPixel, Projection, Resolution, Stipples, VolumeSource,
+    Camera, GradientRange, Ink, Length, PointsPerPixel, Projection, Resolution, Scene, Stipples, VolumeSource,
     VolumeTable,
 };
 use drypoint::scene::view::View;
@@ -65,38 +65,22 @@ fn orthographic(volume: &Volume, pixels_a_unit: f64) -> View {
     View::new(&camera, volume.grid(), [100, 100]).unwrap()
 }
 
-/// What points are made from, A_vol in pixels.
-fn made_from<'a>(
-    stipples: &'a Stipples,
-    table: &'a VolumeTable,
-    volume: &'a Volume,
-    view: &'a View,
-) -> StippleInputs<'a> {
-    StippleInputs { stipples, table, volume, view, near: 0.5, square: 1.0, tone: None }
+/// What points and dots are made by, A_vol in pixels.
+fn params(stipples: &Stipples, table: &VolumeTable, grid: &Grid, view: &View) -> StippleParams {
+    let scene = Scene { volume: table.clone(), ..Scene::for_volume(table.source.clone()) };
+    StippleParams { near: 0.5, ..StippleParams::new(&scene, stipples, grid, view.clone()).unwrap() }
 }
 
-/// What frames are drawn from, dots `size` mm wide that nothing hides and no pen draws.
+/// Frames of dots `size` mm wide that nothing hides and no pen draws.
 fn drawn_from<'a>(
-    stipples: &'a Stipples,
+    stipples: &Stipples,
     points: &'a Points,
     grid: &'a Grid,
-    reference: &'a View,
+    reference: &View,
     size: f64,
 ) -> FrameInputs<'a> {
-    let light = LightDirection::Head;
-    FrameInputs {
-        stipples,
-        points,
-        light,
-        grid,
-        reference,
-        near: 0.5,
-        size,
-        nib: None,
-        surface: None,
-        clip: &NO_PLANES,
-        tone: None,
-    }
+    let stipples = StippleParams { size, ..params(stipples, &table(), grid, reference) };
+    FrameInputs { stipples, points, grid, nib: None, surface: None, tone: None }
 }
 
 /// A flat tone in opaque ink: T_r is one number for all voxels, and has `tone` points of each drawn.
@@ -110,10 +94,10 @@ fn points_of(dims: [usize; 3], value: impl Fn(DVec3) -> f64, stipples: &Stipples
     let volume = common::volume(dims, value);
     let (view, table) = (orthographic(&volume, 8.0), table());
     // Eq. 1 is linear in k_max.
-    let once = Preprocess::new(made_from(stipples, &table, &volume, &view)).unwrap();
+    let once = Preprocess::new(params(stipples, &table, volume.grid(), &view), &volume, None).unwrap();
     let face = (dims.iter().product::<usize>() as f64).cbrt().powi(2);
     let stipples = Stipples { k_max: PointsPerPixel::Number(each as f64 * face / once.area), ..stipples.clone() };
-    let preprocess = Preprocess::new(made_from(&stipples, &table, &volume, &view)).unwrap();
+    let preprocess = Preprocess::new(params(&stipples, &table, volume.grid(), &view), &volume, None).unwrap();
     assert_eq!((preprocess.each, preprocess.box_side), (each, 1));
     Preprocessed { points: preprocess.points(&mut Counts::default(), &|_| {}).unwrap() }
 }

@@ -1,8 +1,8 @@
 //! The voxels that get points, how many, and where those lie ([STIP-1] … [STIP-4], hard cases).
 
-use super::{orthographic, points_of, table, wide};
+use super::{orthographic, params, points_of, table, wide};
 use crate::common;
-use drypoint::reference::volume_stippling::{Preprocess, StippleInputs};
+use drypoint::reference::volume_stippling::Preprocess;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::points::Points;
@@ -12,8 +12,10 @@ use drypoint::scene::volume::Volume;
 
 fn made(volume: &Volume, stipples: &Stipples, view: &View) -> Points {
     let table = table();
-    let inputs = StippleInputs { stipples, table: &table, volume, view, near: 0.5, square: 1.0, tone: None };
-    Preprocess::new(inputs).unwrap().points(&mut Counts::default(), &|_| {}).unwrap()
+    Preprocess::new(params(stipples, &table, volume.grid(), view), volume, None)
+        .unwrap()
+        .points(&mut Counts::default(), &|_| {})
+        .unwrap()
 }
 
 fn all_ways() -> impl Iterator<Item = Stipples> {
@@ -111,16 +113,7 @@ fn small_voxels_become_boxes() {
     let made = |pixels, box_side| {
         let view = orthographic(&volume, pixels);
         let stipples = Stipples { box_side, ..Stipples::default() };
-        let inputs = StippleInputs {
-            stipples: &stipples,
-            table: &table,
-            volume: &volume,
-            view: &view,
-            near: 0.5,
-            square: 1.0,
-            tone: None,
-        };
-        let preprocess = Preprocess::new(inputs).unwrap();
+        let preprocess = Preprocess::new(params(&stipples, &table, volume.grid(), &view), &volume, None).unwrap();
         (preprocess.area, preprocess.box_side, preprocess.each)
     };
     let at = |pixels| made(pixels, None);

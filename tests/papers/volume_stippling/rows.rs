@@ -1,7 +1,7 @@
 //! Dots on a sphere whose voxels are not cubes: as many a unit of area everywhere, whatever lies between two slices
 //! ([STIP-4]). Voxels whose pieces of a face overlap or leave gaps show as rows of dots, one a slice.
 
-use super::{drawn_from, flat, made_from, table};
+use super::{drawn_from, flat, params, table};
 use crate::common;
 use drypoint::reference::volume_stippling::{FrameDots, Frames, Preprocess};
 use drypoint::scene::counts::Counts;
@@ -48,7 +48,7 @@ fn sphere(slices: f64, soft: f64) -> Sphere {
     };
     let table = table();
     let made = |stipples: &Stipples| {
-        let preprocess = Preprocess::new(made_from(stipples, &table, &volume, &view)).unwrap();
+        let preprocess = Preprocess::new(params(stipples, &table, volume.grid(), &view), &volume, None).unwrap();
         (preprocess.each, preprocess.points(&mut Counts::default(), &|_| {}).unwrap())
     };
     // Eq. 1 is linear in k_max.

@@ -1,14 +1,15 @@
 //! Tone: what dots cover, `k_max = "auto"`, and the inverse of a step wedge ([STIP-17]).
 
-use super::{drawn_from, made_from, table};
+use super::{drawn_from, params, table};
 use crate::common;
 use drypoint::output::paint::{PageWindow, blank, paint};
-use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, PenTone, Preprocess, StippleInputs};
+use drypoint::reference::volume_stippling::{FrameDots, FrameInputs, Frames, PenTone, Preprocess};
 use drypoint::scene::counts::Counts;
 use drypoint::scene::glam::{DVec2, DVec3};
 use drypoint::scene::marks::{Dot, Layer, Marks, Page, Pen};
 use drypoint::scene::philox;
 use drypoint::scene::picture::LayerKind;
+use drypoint::scene::shot::StippleParams;
 use drypoint::scene::tables::{BlendSpace, Camera, Ink, Length, PointsPerPixel, Projection, Stipples, Threshold};
 use drypoint::scene::tone::Tone;
 use drypoint::scene::view::View;
@@ -122,8 +123,8 @@ fn face(n: DVec3, width: f64, thin: bool, with: With) -> f64 {
         ..Stipples::default()
     };
     let table = table();
-    let inputs = StippleInputs { tone: Some((&tone, dot)), ..made_from(&stipples, &table, &volume, &view) };
-    let preprocess = Preprocess::new(inputs).unwrap();
+    let params = StippleParams { dot_area: dot, ..params(&stipples, &table, volume.grid(), &view) };
+    let preprocess = Preprocess::new(params, &volume, Some(&tone)).unwrap();
     let mut points = preprocess.points(&mut Counts::default(), &|_| {}).unwrap();
     if with != With::Discs {
         // A pen's dots are as many as the ink of the sizes that they should have.

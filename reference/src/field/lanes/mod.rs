@@ -233,7 +233,7 @@ impl Field<'_, f64> {
     /// differences or Sobel's operator, at least four voxels on each axis. [`EachReader`] reads the other kernels if a
     /// sample's `looks` are expensive too; otherwise single rays are as fast.
     pub(crate) fn fits_lanes(&self, gradient: bool, looks: bool) -> bool {
-        if self.formula.is_some() || self.stencils.careful() || !self.volume.voxels().voxel_type().is_integer() {
+        if self.formula.is_some() || self.stencils.careful() || !self.volume.is_integer() {
             return false;
         }
         if !matches!(self.kernel, KernelData::Trilinear) {

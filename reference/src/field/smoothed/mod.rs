@@ -82,7 +82,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
             let column = [0, 1, 2].map(|i| [inverse.rows[i].x, inverse.rows[i].y, inverse.rows[i].z][a]);
             column.iter().map(|c| c * c).sum::<f64>()
         });
-        let integers = field.volume().voxels().voxel_type().is_integer();
+        let integers = field.volume().is_integer();
         let rounding = if integers { field.derivative.abs() / 12f64.sqrt() } else { 0.0 };
         Self { field, rows, side, dims, bricks, responses, squares, base: field.stencils.lowest(), rounding }
     }

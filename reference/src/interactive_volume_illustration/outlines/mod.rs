@@ -8,6 +8,7 @@ mod curve_refinement;
 mod cusps;
 mod facing;
 mod iso_difference;
+mod page;
 mod search;
 mod second_function;
 mod section;
@@ -16,4 +17,5 @@ mod tetrahedra;
 
 pub use creases::{CreaseStrokes, creases};
 pub use cusps::before_cusps;
+pub use page::Outlines;
 pub use search::{OutlineStrokes, outlines};

@@ -2,6 +2,7 @@
 
 mod from_field;
 mod measures;
+mod page;
 mod placement;
 mod pyramid;
 mod root_search;
@@ -10,6 +11,7 @@ mod without_iso;
 
 pub use from_field::gradient_range;
 pub use measures::{LargestMeasure, VoxelMeasure};
+pub use page::seed_layers;
 pub use placement::Seed;
 pub use pyramid::Pyramid;
 pub use selection::{SeedRule, Seeds};

@@ -2,7 +2,7 @@
 //! creases that coincide with outlines ([HATCH-22]).
 
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{Polyline, Vertex};
+use drypoint_scene::marks::{Layer, Polyline, Vertex};
 use drypoint_scene::parallel;
 use drypoint_scene::view::View;
 
@@ -25,6 +25,21 @@ pub fn gapped(lines: &[Polyline], others: &[Polyline], view: &View, gap: f64, de
     let all: Vec<PageSegment> =
         lines.iter().chain(others).enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
     cut(lines, &all, view, gap, 0.0, CutBy::Nearer(deeper))
+}
+
+/// Cuts gaps of `gap` mm into the lines of the first `own` layers where nearer lines of any layer cross them, as
+/// [`gapped`] does. Returns the number of cut segments. All gaps refer to the lines before any was cut.
+pub fn cut_gaps([gap, deeper]: [f64; 2], layers: &mut [Layer], own: usize, view: &View) -> u64 {
+    let before: Vec<Vec<Polyline>> = layers.iter().map(|layer| layer.lines.clone()).collect();
+    let mut cuts = 0;
+    for (i, layer) in layers.iter_mut().take(own).enumerate() {
+        let others = before.iter().enumerate().filter(|(other, _)| *other != i);
+        let others: Vec<Polyline> = others.flat_map(|(_, lines)| lines.iter().cloned()).collect();
+        let found = gapped(&layer.lines, &others, view, gap, deeper);
+        cuts += found.cuts;
+        layer.lines = found.lines;
+    }
+    cuts
 }
 
 /// Length of a way beside another line, in gaps, from which on a line is that line's double. On a shorter way one line

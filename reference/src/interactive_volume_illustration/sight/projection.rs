@@ -3,6 +3,7 @@
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::Page;
 use drypoint_scene::marks::frame::clipped;
+use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
 /// A projection from the world to a page.
@@ -27,6 +28,15 @@ pub(super) struct ClippedSegment {
     pub(super) range: [f64; 2],
     /// The length on the page from s = 0 to 1, in mm.
     pub(super) length: f64,
+}
+
+/// Returns the largest scale of a view in the volume, in mm of the page a world unit. `near` is the near distance of a
+/// perspective camera, in world units.
+pub fn largest_scale(view: &View, page: &Page, near: f64, grid: &Grid) -> f64 {
+    let pixel = (page.size.x - 2.0 * page.margin) / view.size[0] as f64;
+    let depths = grid.world_corners().map(|corner| -view.to_eye(corner).z);
+    let nearest = if view.perspective { depths.into_iter().fold(f64::INFINITY, f64::min).max(near) } else { 1.0 };
+    pixel / (view.pixel * nearest)
 }
 
 impl<'a> PageProjection<'a> {

@@ -88,6 +88,12 @@ impl CurvatureFamily {
     }
 }
 
+/// Largest distance of chords from their curve on the page, in mm ([HATCH-10]).
+const MOST_OFF: f64 = 0.05;
+
+/// Least chord distance and δ, in voxels. An eye inside the volume can make a voxel arbitrarily large on the page.
+const FINEST: f64 = 0.01;
+
 /// Parameters of growing strokes. Lengths are in world units, angles in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HatchParams {
@@ -138,6 +144,16 @@ impl HatchParams {
             jitter: 0.0,
             seed: 1,
         }
+    }
+
+    /// Makes chords and δ as small as the page can show, for a largest scale of `scale` mm a world unit and a pen `width` mm
+    /// wide ([HATCH-10]).
+    #[must_use]
+    pub fn on_page(mut self, scale: f64, width: f64, grid: &Grid) -> Self {
+        let finest = FINEST * grid.voxel();
+        self.chord = self.chord.min((MOST_OFF / scale).max(finest));
+        self.offset = self.offset.min((0.5 * width / scale).max(finest));
+        self
     }
 
     /// The random factor of the length of a cell's stroke: 1 ± `jitter`.

@@ -2,7 +2,7 @@
 
 use super::unit;
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::{Boundary, FactorRange};
+use drypoint_scene::shot::stipples::{Boundary, FactorRange};
 
 /// T_b = V (k_gc + k_gs ‖∇V‖^k_ge), in [0, 1].
 pub(super) fn boundary(t: &Boundary, range: FactorRange, value: f64, magnitude: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Eq. 8: fewer and smaller points in the far parts of the volume ([STIP-10]).
 
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::Distance;
+use drypoint_scene::shot::stipples::Distance;
 
 /// T_d = ½(1 + sign(k)·sign(z)·|z/a|^|k|), k = k_de, in [0, 1]. `z` is the depth from the volume's centre towards the
 /// eye over the radius of its bounding sphere. k = 0 turns the factor off; the formula would give one half.

@@ -1,7 +1,7 @@
 //! Eq. 9: parts with a small gradient become transparent ([STIP-11]).
 
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::Interior;
+use drypoint_scene::shot::stipples::Interior;
 
 /// T_t = ‖∇V‖^k_te.
 pub(super) fn interior(t: &Interior, magnitude: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! Eq. 10: fewer points where light falls ([STIP-12]).
 
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::Lighting;
+use drypoint_scene::shot::stipples::Lighting;
 
 /// T_l = 1 − max(0, L·n)^k_le on surfaces that face the eye, 0 on others. k = 0 turns the factor off. `lit` is L·n,
 /// `facing` n·E.

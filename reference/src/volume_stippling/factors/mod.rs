@@ -13,8 +13,9 @@ pub use resolution::viewing_distance;
 use super::ridge::across;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::points::PointVoxel;
+use drypoint_scene::shot::StippleParams;
+use drypoint_scene::shot::stipples::{DotDensity, FactorRange};
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{DotDensity, FactorRange, LightDirection, Stipples};
 use drypoint_scene::view::View;
 
 /// Brings a factor into [0, 1] ([STIP-5]): clamped, or divided by its largest value if that exceeds 1. The largest
@@ -39,7 +40,7 @@ pub(super) struct FixedFactors {
 }
 
 impl FixedFactors {
-    pub(super) fn new(stipples: &Stipples, voxel: &PointVoxel, grid: &Grid) -> Self {
+    pub(super) fn new(stipples: &StippleParams, voxel: &PointVoxel, grid: &Grid) -> Self {
         let PointVoxel { value, magnitude, .. } = *voxel;
         Self {
             boundary: stipples.boundary.map_or(1.0, |t| boundary::boundary(&t, stipples.factors, value, magnitude)),
@@ -51,7 +52,7 @@ impl FixedFactors {
 
 /// The factors of one camera.
 pub(super) struct CameraFactors<'a> {
-    stipples: &'a Stipples,
+    stipples: &'a StippleParams,
     view: &'a View,
     /// L, in world space.
     light: DVec3,
@@ -84,13 +85,13 @@ pub(super) struct Factors {
 }
 
 impl<'a> CameraFactors<'a> {
-    pub(super) fn new(stipples: &'a Stipples, light: LightDirection, view: &'a View, whole: &VolumeExtent) -> Self {
+    pub(super) fn new(stipples: &'a StippleParams, view: &'a View, whole: &VolumeExtent) -> Self {
         let lighting = stipples.lighting.filter(|t| t.le != 0.0);
         let distance = || viewing_distance(view, whole.centre, whole.near);
         Self {
             stipples,
             view,
-            light: lighting.map_or(DVec3::ZERO, |t| view.towards(t.light.unwrap_or(light))),
+            light: lighting.map_or(DVec3::ZERO, |_| view.towards(stipples.light)),
             resolution: stipples.resolution.map_or(1.0, |t| resolution::resolution(&t, whole.reference, distance())),
             depth: -view.to_eye(whole.centre).z,
             radius: whole.radius,

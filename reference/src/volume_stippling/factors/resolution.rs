@@ -5,7 +5,7 @@
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::Resolution;
+use drypoint_scene::shot::stipples::Resolution;
 use drypoint_scene::view::View;
 
 /// T_r = min(1, (D₀/D)^k_re).

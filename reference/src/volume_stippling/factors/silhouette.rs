@@ -2,7 +2,7 @@
 
 use super::unit;
 use drypoint_scene::math::pow;
-use drypoint_scene::tables::{FactorRange, Silhouette};
+use drypoint_scene::shot::stipples::{FactorRange, Silhouette};
 
 /// T_s = V (k_sc + k_ss (1 − |n·E|)^k_se), in [0, 1]. `facing` is n·E. As printed, with ∇V between the bars, the term
 /// is ‖∇V‖ n·E.

@@ -1,34 +1,34 @@
 //! Drawing of hatching for a camera: as strokes fall ([HATCH-13]), or evenly on the page ([HATCH-19]).
 
-use super::growth_counts::{add, count_kept};
-use super::{GrownHatching, GrownStrokes, HatchingSetup, SHORTEST};
-use crate::stroking::StrokeCamera;
-use drypoint_reference::interactive_volume_illustration as room;
+use super::counts::{add, count_kept};
+use super::{CrossedStrokes, GrownHatching, Hatching};
+use crate::interactive_volume_illustration::{
+    DepthRange, LineDistance, LineSpacing, NormalCone, PenState, Sight, StrokeDirection, StrokePoint, WidthShares,
+    crossed_tone, crossed_tones, drawn, grain, scatter, surface_tone,
+};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Layer, Pen, Polyline};
 use drypoint_scene::math;
 use drypoint_scene::parallel;
 use drypoint_scene::strokes::Stroke;
-use drypoint_scene::tables::Spacing;
-use std::time::Instant;
+
+/// Shortest line on the page, in widths of the pen.
+pub const SHORTEST: f64 = 6.0;
 
 impl GrownHatching<'_> {
-    /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own.
-    pub(in crate::stroking) fn draw(&self, frame: &StrokeCamera<'_>, counts: &mut Counts) -> Vec<Layer> {
-        let HatchingSetup { table, pen, cross_pen, spacing, .. } = self.hatching;
-        let start = Instant::now();
-        let light = frame.view.towards(self.hatching.light);
-        let tone = |normal: DVec3| room::surface_tone(table.stroke.ambient, normal, light);
-        // Strokes lie in front of the surface themselves.
-        let sight = frame.sight(0.0);
+    /// Returns the strokes that a camera sees. Crossing strokes are a layer of their own. Strokes lie in front of the
+    /// surface themselves, so the offset of `sight` is 0.
+    pub fn draw(&self, sight: &Sight<'_>, counts: &mut Counts) -> Vec<Layer> {
+        let Hatching { ambient, pen, cross_pen, spacing, .. } = self.hatching;
+        let light = sight.view.towards(self.hatching.light);
+        let tone = |normal: DVec3| surface_tone(*ambient, normal, light);
         let [lines, across] = match (&self.grown, *spacing) {
-            (Some(grown), _) => self.as_they_fall(&sight, grown, light, &tone, counts),
-            (None, Some(apart)) => self.evenly(&sight, apart, &tone, counts),
+            (Some(grown), _) => self.as_they_fall(sight, grown, light, &tone, counts),
+            (None, Some(apart)) => self.evenly(sight, apart, &tone, counts),
             (None, None) => Default::default(),
         };
-        *counts.seconds.entry("hatching".into()).or_default() += start.elapsed().as_secs_f64();
-        let crossed = table.cross.map(|_| Layer { lines: across, ..Layer::new(cross_pen.clone()) });
+        let crossed = self.hatching.cross.map(|_| Layer { lines: across, ..Layer::new(cross_pen.clone()) });
         std::iter::once(Layer { lines, ..Layer::new(pen.clone()) }).chain(crossed).collect()
     }
 
@@ -36,35 +36,34 @@ impl GrownHatching<'_> {
     /// strokes are drawn, too, and colours tell near from far, both are sorted by depth together.
     fn as_they_fall(
         &self,
-        sight: &room::Sight<'_>,
-        grown: &GrownStrokes,
+        sight: &Sight<'_>,
+        grown: &CrossedStrokes,
         light: DVec3,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
+        let Hatching { cross, pen, cross_pen, one_width, .. } = self.hatching;
         let may_be_seen = |stroke: &&Stroke| !self.turns_away(sight, stroke);
         // Strokes that may be seen. Crossing ones need flat light at their seeds.
         let mut first: Vec<&Stroke> = grown.first.iter().filter(may_be_seen).collect();
-        let mut across: Vec<&Stroke> = table.cross.map_or_else(Vec::new, |angle| {
+        let mut across: Vec<&Stroke> = cross.map_or_else(Vec::new, |angle| {
             let limit = math::cos(angle.to_radians());
             let flat = grown.across.iter().filter(|(normal, _)| normal.dot(light) < limit).map(|(_, stroke)| stroke);
             flat.filter(may_be_seen).collect()
         });
-        let by_depth = self.hatching.lighting.is_some() && !self.hatching.is_cut();
+        let by_depth = self.hatching.lighting.is_some() && !self.hatching.cuts_hidden;
         if by_depth {
             first.append(&mut across);
         }
         // Each direction in its pen: style along the stroke, then hidden parts cut off.
-        let depths = room::DepthRange::new(sight.view, self.strokes.ground().grid());
-        let one_width = [table.has_one_width(), table.has_one_width() || table.cross_pen.is_some()];
-        let inks = [pen, cross_pen].into_iter().zip(one_width).map(|(pen, one)| (pen.width, one));
+        let depths = DepthRange::new(sight.view, self.strokes.ground().grid());
+        let inks = [pen, cross_pen].into_iter().zip(*one_width).map(|(pen, one)| (pen.width, one));
         let mut lines = inks.zip([first, across]).map(|(ink, strokes)| {
             let least = if ink.1 { 0.0 } else { 0.5 * self.hatching.min_width };
             let draw = |stroke: &&Stroke| {
                 let length = if self.hatching.is_pencil { stroke.length() } else { 0.0 };
                 let made = (*stroke, length, ink);
-                room::drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
+                drawn(stroke, least, |place| self.pen(sight, made, place, (light, depths), tone))
             };
             let drawn = parallel::gather(strokes.len(), 1, &|run, drawn| {
                 drawn.extend(strokes[run].iter().flat_map(draw));
@@ -82,21 +81,21 @@ impl GrownHatching<'_> {
     /// Returns width, opacity and colour of a stroke at a point.
     fn pen(
         &self,
-        sight: &room::Sight<'_>,
+        sight: &Sight<'_>,
         (stroke, length, (widest, one_width)): (&Stroke, f64, (f64, bool)),
-        room::StrokePoint { vertex, tangent }: &room::StrokePoint,
-        (light, depths): (DVec3, room::DepthRange),
+        StrokePoint { vertex, tangent }: &StrokePoint,
+        (light, depths): (DVec3, DepthRange),
         tone: &impl Fn(DVec3) -> f64,
-    ) -> room::PenState {
-        let HatchingSetup { table, lighting, .. } = self.hatching;
+    ) -> PenState {
+        let Hatching { growth, lighting, .. } = self.hatching;
         let width = if one_width {
             widest
         } else {
-            let shares = room::WidthShares {
-                tone: (tone(vertex.normal), table.tone()),
-                taper: (vertex.u, if stroke.closed { 0.0 } else { table.taper() }),
-                scatter: room::scatter(table.stroke.jitter, table.seed, stroke.key),
-                depth: (depths.share(sight.view, vertex.world), table.stroke.depth),
+            let shares = WidthShares {
+                tone: (tone(vertex.normal), self.hatching.tone),
+                taper: (vertex.u, if stroke.closed { 0.0 } else { self.hatching.taper }),
+                scatter: scatter(growth.jitter, growth.seed, stroke.key),
+                depth: (depths.share(sight.view, vertex.world), self.hatching.depth),
             };
             shares.width(widest)
         };
@@ -109,20 +108,20 @@ impl GrownHatching<'_> {
         let (color, mut opacity) = lit.map_or((None, 1.0), |[r, g, b, opacity]| (Some([r, g, b]), opacity));
         if self.hatching.is_pencil {
             let voxel = self.strokes.ground().grid().voxel();
-            opacity *= tone(vertex.normal) * room::grain(table.seed, stroke.key, vertex.u * length, voxel);
+            opacity *= tone(vertex.normal) * grain(growth.seed, stroke.key, vertex.u * length, voxel);
         }
-        if let Some(shown) = &self.hatching.seen {
+        if let Some(shown) = &self.hatching.visible {
             opacity *= self.strokes.value(vertex.world).map_or(0.0, |value| shown.opacity(value));
         }
-        room::PenState { radius: width / 2.0, opacity, color }
+        PenState { radius: width / 2.0, opacity, color }
     }
 
     /// Whether a whole stroke turns away from the eye, so that its own surface hides it. False if another surface hides
     /// it ([HATCH-10]).
-    fn turns_away(&self, sight: &room::Sight<'_>, stroke: &Stroke) -> bool {
+    fn turns_away(&self, sight: &Sight<'_>, stroke: &Stroke) -> bool {
         let view = sight.view;
         sight.surface.is_some_and(|surface| Some(surface.iso()) == self.hatching.iso && surface.front(view) > 0.0) && {
-            let cone = room::NormalCone::new(stroke);
+            let cone = NormalCone::new(stroke);
             if view.perspective { cone.culled(view.eye) } else { cone.culled_from(-view.forward) }
         }
     }
@@ -130,32 +129,32 @@ impl GrownHatching<'_> {
     /// Draws strokes that keep their distance on the page from others of the same direction.
     fn evenly(
         &self,
-        sight: &room::Sight<'_>,
-        apart: room::LineDistance,
+        sight: &Sight<'_>,
+        apart: LineDistance,
         tone: &(impl Fn(DVec3) -> f64 + Sync),
         counts: &mut Counts,
     ) -> [Vec<Polyline>; 2] {
-        let HatchingSetup { table, pen, cross_pen, .. } = self.hatching;
-        let crossed = table.cross.is_some();
-        let by_tone = table.spacing == Spacing::Tone;
+        let Hatching { growth, pen, cross_pen, .. } = self.hatching;
+        let crossed = self.hatching.cross.is_some();
+        let by_tone = matches!(apart, LineDistance::Tone { .. });
         let printed = |normal: DVec3| match (by_tone, crossed) {
-            (true, true) => room::crossed_tones(tone(normal)),
+            (true, true) => crossed_tones(tone(normal)),
             (true, false) => [tone(normal), 0.0],
-            (false, _) => [1.0, room::crossed_tone(tone(normal))],
+            (false, _) => [1.0, crossed_tone(tone(normal))],
         };
         let [first, second] = [0, 1].map(|direction| move |normal: DVec3| printed(normal)[direction]);
         let mut even_lines = |along, pen: &Pen, tone: &(dyn Fn(DVec3) -> f64 + Sync)| {
             let margin = DVec2::splat(sight.page.margin);
             let corners = [margin, sight.page.size - margin];
-            let mut spread = room::LineSpacing::new(corners, pen.width, apart, SHORTEST * pen.width);
-            let even = self.strokes.evenly(sight, (&self.cells, table.seed), along, tone, &mut spread);
+            let mut spread = LineSpacing::new(corners, pen.width, apart, SHORTEST * pen.width);
+            let even = self.strokes.evenly(sight, (&self.cells, growth.seed), along, tone, &mut spread);
             add(counts, &even.counts);
             *counts.preprocess.entry("looks for what hides".into()).or_default() += even.looks + even.seen;
             *counts.preprocess.entry("strokes tried".into()).or_default() += even.tried;
             even.lines
         };
-        let lines = even_lines(room::StrokeDirection::First, pen, &first);
-        let across = if crossed { even_lines(room::StrokeDirection::Second, cross_pen, &second) } else { Vec::new() };
+        let lines = even_lines(StrokeDirection::First, pen, &first);
+        let across = if crossed { even_lines(StrokeDirection::Second, cross_pen, &second) } else { Vec::new() };
         count_kept(counts, &self.strokes);
         [lines, across]
     }

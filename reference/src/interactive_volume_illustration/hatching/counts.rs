@@ -1,10 +1,10 @@
 //! Counts of growing strokes ([PLAN-2]).
 
-use drypoint_reference::interactive_volume_illustration as room;
+use crate::interactive_volume_illustration::{HatchCounts, StrokeGrower};
 use drypoint_scene::counts::Counts;
 
 /// Counts the directions that strokes have stored.
-pub(super) fn count_kept(counts: &mut Counts, strokes: &room::StrokeGrower<'_, '_>) {
+pub(super) fn count_kept(counts: &mut Counts, strokes: &StrokeGrower<'_, '_>) {
     let [made, bytes] = strokes.stored();
     counts.preprocess.insert("stored directions".into(), made);
     counts.bytes.insert("stored directions".into(), bytes);
@@ -12,7 +12,7 @@ pub(super) fn count_kept(counts: &mut Counts, strokes: &room::StrokeGrower<'_, '
 }
 
 /// Adds the counts of growing.
-pub(super) fn add(counts: &mut Counts, grown: &room::HatchCounts) {
+pub(super) fn add(counts: &mut Counts, grown: &HatchCounts) {
     counts.directions += grown.scales.directions();
     for (cause, number) in grown.stops.named() {
         *counts.stops.entry(cause.into()).or_default() += number;

@@ -1,7 +1,7 @@
 //! Settings of growing strokes: the table of hatching in world units.
 
+use super::lengths::in_world;
 use crate::Failure;
-use crate::stroking::in_world;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
