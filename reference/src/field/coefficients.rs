@@ -96,7 +96,7 @@ impl<R: Real> Coefficients<R> {
         self
     }
 
-    /// The numbers times a factor, without the constant [`base`](Self::base).
+    /// The numbers times a factor, without the constant.
     pub(super) fn padded(&self, factor: f64) -> PaddedNumbers {
         let data = self.data.iter().map(|c| c.to_f64() * factor).collect();
         PaddedNumbers::new(data, self.dims, self.pad)

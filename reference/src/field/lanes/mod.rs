@@ -223,7 +223,7 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     sign: u64,
     /// The sign bits of the numbers in the lower half of a word.
     signs: u64,
-    /// The number to which [`raised`](Self::raised) maps 0.
+    /// The number to which 0 is raised.
     zero: f64,
     to_world: Mat3<f64x8<S>>,
 }
