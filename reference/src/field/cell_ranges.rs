@@ -1,5 +1,5 @@
-//! Ranges of the values that a kernel can return in each cell of a brick ([RAY-2]). Where the field is steep they are
-//! far narrower than the brick's range.
+//! Ranges of the values that a kernel can return in each cell of a brick ([RAY-2]). In steep regions they are far
+//! narrower than the brick's range.
 
 use super::{Field, KernelData, ranges};
 use crate::number::Real;
@@ -8,15 +8,15 @@ use drypoint_scene::volume::BRICK;
 /// Cells of a brick.
 pub(crate) const CELLS: usize = BRICK * BRICK * BRICK;
 
-/// Numbers that the cells of a brick reach along an axis: the quintic spline has six taps.
+/// Most numbers that the cells of a brick read along an axis. The quintic spline has six taps.
 const MOST: usize = BRICK + 5;
 
 /// Lowest and highest numbers, [z][y][x].
 type Extremes = [[[[f64; 2]; MOST]; MOST]; MOST];
 
 impl<R: Real> Field<'_, R> {
-    /// Ranges of values that no sample leaves, one for each cell of a brick, x fastest. Ranges of cells beyond the last
-    /// cell describe no sample.
+    /// Ranges that contain every sample of the field, one range for each cell of a brick, x fastest. Ranges of cells
+    /// beyond the grid's last cell mean nothing.
     pub(crate) fn cell_ranges(&self, brick: [usize; 3]) -> [[f64; 2]; CELLS] {
         let first = brick.map(|i| i * BRICK);
         let mut numbers: Extremes = [[[[0.0; 2]; MOST]; MOST]; MOST];
@@ -45,7 +45,7 @@ fn put(numbers: &mut Extremes, [x, y, z]: [usize; 3], number: f64) {
     numbers[z][y][x] = [number; 2];
 }
 
-/// Replaces numbers by the extremes of `taps` of them on each axis, starting at each of the first [`BRICK`].
+/// Replaces each number by the extremes of the `taps` numbers from it on along each axis, for the first [`BRICK`].
 fn closed(numbers: &mut Extremes, side: usize, taps: usize) {
     let join = |[lo, hi]: [f64; 2], [a, b]: [f64; 2]| [lo.min(a), hi.max(b)];
     for plane in &mut numbers[..side] {

@@ -1,4 +1,4 @@
-//! Numbers on a volume's grid: the coefficients of a B-spline, with a border that continues them.
+//! Coefficients of a B-spline on a volume's grid, with a border that continues them.
 
 use super::kernel::bspline;
 use super::place::CellPosition;
@@ -14,14 +14,14 @@ use fearless_simd::Simd;
 
 /// Coefficients minus a constant, x fastest, padded beyond each border by the reach of the spline.
 ///
-/// The constant is the lowest voxel and is added to values again. A constant volume therefore has coefficients 0.
-/// Adding a constant to integers changes no bit of them.
+/// The constant is the lowest voxel. It is added back to every value. A constant volume therefore has coefficients 0,
+/// and adding a constant to integers changes no bit of the coefficients.
 #[derive(Clone, Debug)]
 pub(super) struct Coefficients<R> {
     data: Vec<R>,
     /// Numbers along x, y, z with the border.
     dims: [usize; 3],
-    /// Numbers along x, y, z without it.
+    /// Numbers along x, y, z without the border.
     inner: [usize; 3],
     /// Numbers before the first one of a line.
     pad: usize,
@@ -54,7 +54,7 @@ impl<S: Simd, R: Real> Rows<R::Four<S>> for RowsOfFour<'_, S, R> {
 const LONGEST_STRIDE: usize = usize::MAX >> 4;
 
 impl<R: Real> Coefficients<R> {
-    /// The voxels, as stencils read them, with room for a spline of degree 2 `pad` + 1.
+    /// The voxels, as stencils read them, with room for the border of a spline of degree 2 · `pad` + 1.
     pub(super) fn of_voxels(stencils: &Stencils<'_>, pad: usize) -> Self {
         let inner = stencils.dims();
         // A cell reaches from `pad` voxels before it to pad + 1 after it, and there is a cell even on a short axis.
@@ -74,7 +74,7 @@ impl<R: Real> Coefficients<R> {
         Self { data, dims, inner, pad, base }
     }
 
-    /// Makes coefficients of samples: solves for the spline through the samples, and continues its coefficients.
+    /// Solves for the spline that interpolates the samples, and continues its coefficients beyond the border.
     pub(super) fn prefilter(mut self) -> Self {
         for axis in 0..3 {
             if let Some(filter) = Prefilter::new(self.inner[axis], self.pad) {
@@ -102,8 +102,8 @@ impl<R: Real> Coefficients<R> {
         PaddedNumbers::new(data, self.dims, self.pad)
     }
 
-    /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds, for each sample of a line,
-    /// the first sample of its sum and the weights from there on.
+    /// Replaces each sample by a weighted sum over its line along one axis. `rows` holds the first sample of each sum,
+    /// and the weights from that sample on.
     pub(super) fn convolve(mut self, axis: usize, rows: &[(usize, Vec<R>)]) -> Self {
         let [px, py, _] = self.dims;
         let stride = [1, px, px * py][axis];
@@ -195,7 +195,8 @@ impl<R: Real> Coefficients<R> {
         self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
     }
 
-    /// Like [`cubic_derivatives`](Self::cubic_derivatives), at a voxel. The border must have at least one coefficient.
+    /// Like [`cubic_derivatives`](Self::cubic_derivatives), but at a voxel. The border must have at least one
+    /// coefficient.
     pub(super) fn derivatives_at(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>)
     where
         R: Into<f64>,
@@ -209,7 +210,8 @@ impl<R: Real> Coefficients<R> {
         of_spline(|i, j, k| number(i, j, k) - first)
     }
 
-    /// Lowest and highest number, base included, that the cells from `first` up to, not including, `end` read.
+    /// Lowest and highest number that the cells from `first` up to, not including, `end` read. The constant is
+    /// included.
     pub(super) fn range(&self, first: [usize; 3], end: [usize; 3]) -> [f64; 2] {
         let reach = 2 * self.pad + 1;
         let [px, py, _] = self.dims;
@@ -226,8 +228,8 @@ impl<R: Real> Coefficients<R> {
         [(lo + self.base).to_f64(), (hi + self.base).to_f64()]
     }
 
-    /// Hands over `side` numbers along each axis, base included, from the first that the cell `first` reads, with their
-    /// index among them. Beyond the last number the nearest one is repeated.
+    /// Calls `take` with the index and the number of `side` numbers along each axis, from the first number that the
+    /// cell `first` reads. The constant is included. Beyond the last number the nearest one is repeated.
     pub(super) fn around(&self, first: [usize; 3], side: usize, mut take: impl FnMut([usize; 3], f64)) {
         let [px, py, pz] = self.dims;
         for (z, y) in (0..side * side).map(|row| (row / side, row % side)) {

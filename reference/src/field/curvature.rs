@@ -1,17 +1,17 @@
 //! Curvature of the iso-surface through a point ([CUR-1], [CUR-2]).
 //!
 //! The shape operator is G = −P H P / ‖g‖ with P = I − nnᵀ, n = g/‖g‖ (Kindlmann, Whitaker, Tasdizen, Möller,
-//! *Curvature-Based Transfer Functions for Direct Volume Rendering*, IEEE Visualization 2003), negated for
-//! `outside = "high"`: a sphere that is bright inside has two positive curvatures. g and H belong to one field, as
-//! [`Sampler::hessian`](super::Sampler::hessian) gives them; a common factor cancels. If g is negligible ([PREC-3])
-//! there is no surface, and curvature must not be asked for.
+//! *Curvature-Based Transfer Functions for Direct Volume Rendering*, IEEE Visualization 2003). G is negated for
+//! `outside = "high"`. A sphere that is bright inside has two positive curvatures for `outside = "low"`. g and H belong
+//! to one field, as [`Sampler::hessian`](super::Sampler::hessian) gives them, and a common factor cancels. If g is
+//! negligible ([PREC-3]) there is no surface, and curvature must not be asked for.
 
 use super::Outside;
 use super::normal::outwards;
 use crate::number::{Arithmetic, Mask, Real, Sym3, Vec3};
 
-/// Principal curvatures, in 1/(world unit), and their directions, orthonormal in the tangent plane; each direction is a
-/// line, its sign means nothing.
+/// Principal curvatures, in 1/(world unit), and their directions, orthonormal in the tangent plane. The sign of a
+/// direction means nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curvature<R> {
     /// κ₁ ≥ κ₂, by value.
@@ -36,12 +36,12 @@ impl<R: Real> Curvature<R> {
     }
 }
 
-/// G in the tangent plane of a surface: −H/‖g‖. Only forms in tangent vectors are taken, so P drops out.
+/// G in the tangent plane of a surface: −H/‖g‖. P drops out, because the form is evaluated for tangent vectors only.
 struct Shape<R> {
     /// The outward normal, [NORM-1]'s N.
     n: Vec3<R>,
     hessian: Sym3<R>,
-    /// −1/‖g‖, 1/‖g‖ for `outside = "high"`.
+    /// −1/‖g‖; 1/‖g‖ for `outside = "high"`.
     scale: R,
 }
 
@@ -89,8 +89,8 @@ impl<A: Arithmetic> Shape<A> {
 
 /// The principal curvatures and directions of the surface with gradient g and Hessian H.
 ///
-/// κ = m ± hypot((a − c)/2, b) on the 2×2 block of G. At umbilics trace and norm lose half their digits, and the
-/// difference a − c keeps them. At an exact umbilic the directions are an arbitrary frame.
+/// κ = m ± hypot((a − c)/2, b) on the 2×2 block of G. Near umbilics, a formula from trace and norm loses half the
+/// digits; the difference a − c keeps them. At an exact umbilic the directions are an arbitrary frame.
 #[inline]
 pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside) -> Curvature<R> {
     let shape = Shape::new(gradient, hessian, outside);
@@ -106,7 +106,7 @@ pub fn principal<R: Real>(gradient: Vec3<R>, hessian: Sym3<R>, outside: Outside)
 }
 
 /// κ_v, the normal curvature in the direction of the unit vector v projected to the tangent plane: tᵀ G t, t = Pv/‖Pv‖.
-/// The mean curvature if the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
+/// Returns the mean curvature if the projection is lost to rounding, ‖Pv‖ ≤ 2⁻²⁶ ([CUR-2]).
 #[inline(always)]
 pub fn along_view<A: Arithmetic>(gradient: Vec3<A>, hessian: Sym3<A>, v: Vec3<A>, outside: Outside) -> A {
     let shape = Shape::new(gradient, hessian, outside);

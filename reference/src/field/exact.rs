@@ -1,5 +1,4 @@
-//! The field of a phantom itself, in place of its reconstruction from voxels: what the reconstructions converge to
-//! ([COST-2]).
+//! The formula of a phantom in place of its reconstruction from voxels. Reconstructions converge to it ([COST-2]).
 
 use super::{CellPosition, Cells, Sampler};
 use crate::number::{Sym3, Vec3};
@@ -9,7 +8,7 @@ use drypoint_scene::phantom::Phantom;
 use drypoint_scene::space::Grid;
 use std::fmt;
 
-/// A phantom's formula on the box of its grid, with its exact derivatives. Rounding to stored integers is not in it.
+/// A phantom's formula on the box of its grid, with its exact derivatives. Values are not rounded to stored integers.
 #[derive(Clone, Copy)]
 pub struct Exact<'p> {
     phantom: &'p dyn Phantom,
@@ -26,7 +25,8 @@ impl fmt::Debug for Exact<'_> {
 }
 
 impl<'p> Exact<'p> {
-    /// A phantom on its grid; derivatives are given times 2^−`exponent`, as those of the field that it stands for.
+    /// A phantom on its grid. Derivatives are multiplied by 2^−`exponent`, like those of the field that the formula
+    /// replaces.
     pub fn new(phantom: &'p dyn Phantom, grid: &'p Grid, exponent: i32) -> Self {
         Self { phantom, grid, cells: Cells::new(grid.dims()), exponent }
     }

@@ -1,4 +1,4 @@
-//! The range of ‖g‖ that |g| from 0 to 1 stands for ([VAL-2]).
+//! The range of ‖g‖ that is mapped to |g| from 0 to 1 ([VAL-2]).
 
 use crate::field::{Field, GradientEstimator};
 use crate::number::Real;
@@ -7,20 +7,20 @@ use drypoint_scene::volume::Mask;
 use drypoint_scene::volume::quantile::quantile;
 use std::ops::RangeInclusive;
 
-/// The quantile q of ‖g‖ over the voxels where it exceeds [PREC-3]'s bound, times the power of two of [SPACE-4], and
-/// the number of voxels that were evaluated. 0 where no voxel has a normal. Voxels whose stencil touches a masked one are
-/// left out.
+/// The quantile q of ‖g‖, times the power of two of [SPACE-4], and the number of voxels that were evaluated. The
+/// quantile is over the voxels where ‖g‖ exceeds the bound of [PREC-3]; it is 0 if no voxel has a normal. Voxels whose
+/// stencil touches a masked voxel are left out.
 pub(crate) fn quantile_of_norms<R: Real>(field: &Field<'_, R>, q: f64) -> (f64, u64) {
     let (volume, estimator, no_normal_below) = (field.volume, field.how.gradient, field.no_normal_below);
     let dims @ [nx, ny, nz] = volume.dims();
     let counts = |x: usize, y: usize, z: usize| !volume.mask().is_some_and(|m| touches(m, dims, [x, y, z], estimator));
-    // Roots keep the order, so the square of the quantile is selected and its root is taken once.
+    // Roots keep the order, so the quantile of the squares is selected and its root is taken once.
     let least = square_of(no_normal_below);
     let fill = |(rows, squares): &mut (Vec<R>, Vec<R>), row: usize, numbers: &mut Vec<f64>| {
         let (y, z) = (row % ny, row / ny);
         field.voxel_squares([y, z], rows, squares);
-        // Each square is written behind the last that counts: without a branch, which would be guessed wrong at every edge
-        // of an object.
+        // Each square is written after the last one that counts. A branch would be mispredicted at every edge of an
+        // object.
         numbers.resize(nx, 0.0);
         let mut kept = 0;
         for (x, &square) in squares.iter().enumerate() {
@@ -41,8 +41,8 @@ pub(crate) fn quantile_of_norms<R: Real>(field: &Field<'_, R>, q: f64) -> (f64, 
     (hi.unwrap_or(0.0), evaluated)
 }
 
-/// The largest number whose root is not above a bound of at least 0: a number has a root above the bound exactly if it is
-/// larger.
+/// The largest number whose root is at most a bound ≥ 0. So a number's root exceeds the bound exactly if the number
+/// exceeds the result.
 fn square_of<R: Real>(bound: R) -> R {
     let mut square = bound * bound;
     while square.next_up().sqrt() <= bound {
@@ -54,12 +54,12 @@ fn square_of<R: Real>(bound: R) -> R {
     square
 }
 
-/// Whether the gradient at a voxel reads a masked voxel, or the voxel is one.
+/// Whether a voxel is masked, or its gradient reads a masked voxel.
 ///
-/// The derivative along each axis reads a box about the voxel. Along that axis it has the neighbours, or three voxels
-/// inwards from a border where differences are one-sided. Across, central differences read nothing more, Sobel's operator
-/// the neighbours where it has both, and the others all that there are; for the kernels' own derivatives these are the
-/// corners of the eight cells about the voxel.
+/// The derivative along each axis reads a box about the voxel. Along that axis the box has the neighbours, or three
+/// voxels inwards from a border where differences are one-sided. Across the axis, central differences read no
+/// neighbours, and Sobel's operator reads them where it has both. The other estimators read all neighbours that exist.
+/// For `analytic` these are the corners of the eight cells about the voxel.
 pub(crate) fn touches(mask: &Mask, dims: [usize; 3], voxel: [usize; 3], estimator: GradientEstimator) -> bool {
     use GradientEstimator::{Analytic, Central, Regression, Sobel};
     let neighbours = |a: usize| voxel[a].saturating_sub(1)..=(voxel[a] + 1).min(dims[a] - 1);

@@ -1,4 +1,4 @@
-//! Central differences of samples, and central differences of those, interpolated linearly ([REC-3]).
+//! First and second central differences of samples, interpolated linearly ([REC-3]).
 //!
 //! Along an axis a cell has six samples; the interpolation runs between the differences at its two corners. Written as
 //! a kernel this has six taps. Two of them are nonzero for the value and four for the first derivative, so 112 of the
@@ -24,7 +24,7 @@ pub(super) fn taps(w: f64) -> Taps<f64, TAPS> {
     }
 }
 
-/// The samples around a cell: the first of them, and the way from a row to the next along y and along z.
+/// The samples around a cell: a slice from the first one on, and the steps from a row to the next along y and along z.
 #[derive(Clone, Copy)]
 pub(super) struct SampleWindow<'s> {
     pub samples: &'s [f64],
@@ -32,7 +32,7 @@ pub(super) struct SampleWindow<'s> {
 }
 
 impl SampleWindow<'_> {
-    /// Gradient and Hessian along the index axes at the way `w` into the cell.
+    /// Gradient and Hessian along the index axes at the fractions `w` in the cell.
     pub(super) fn second(self, w: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
         match wide() {
             Some(simd) => simd.vectorize(
@@ -74,7 +74,7 @@ impl<S: Simd> Rows<f64x4<S>> for MiddleRows<'_, S> {
     }
 }
 
-/// [`tensor::second`] of all six taps, to the same numbers, without those whose weight is 0.
+/// The sums of [`tensor::second`] over all six taps, with the same results, but without the taps of weight 0.
 #[inline(always)]
 fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]: [f64; 3]) -> (Vec3<f64>, Sym3<f64>) {
     let (x, y, z) = (taps(x), taps(y), taps(z));
@@ -85,7 +85,7 @@ fn sums<S: Simd>(around: &SampleWindow<'_>, rows: &MiddleRows<'_, S>, [x, y, z]:
     let [mut s00, mut s10, mut s01, mut s20, mut s11, mut s02] = [rows.zero(); 6];
     let mut outer = [0.0; 2];
     for k in 0..TAPS {
-        // pᵢ: the sums over y in one plane, with the i-th derivative. Taps 2 and 3 alone have a value, taps 1 to 4 a
+        // pᵢ: the sums over y in one plane, with the i-th derivative. Only taps 2 and 3 have a value, and taps 1 to 4 a
         // first derivative.
         let [mut p0, mut p1, mut p2] = [rows.zero(); 3];
         let middle = k == 2 || k == 3;

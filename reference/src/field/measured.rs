@@ -1,4 +1,4 @@
-//! The numbers of a field as another renderer reads them.
+//! The numbers of a field for another renderer.
 
 use super::coefficients::Coefficients;
 use super::gradient::regression::Regression;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// Voxels beyond the border that a cell's estimators read.
 const REACH: usize = 2;
 
-/// The share of the largest magnitude that a range has to exceed for its values to be about 0.
+/// A range counts as around 0 if it exceeds this share of its largest magnitude.
 const FAR: f64 = 1.0 / 16.0;
 
 impl<R: Real> Field<'_, R> {
@@ -24,7 +24,8 @@ impl<R: Real> Field<'_, R> {
             KernelData::Bspline(c) | KernelData::Bspline5(c) => (c.padded(slope), false),
             KernelData::Trilinear | KernelData::BsplineSmooth | KernelData::CatmullRom => (voxels(), true),
         };
-        // Values about 0 keep their digits as they are; far from 0 their differences do.
+        // Values in a range around 0 keep their digits as they are. Far from 0 the differences to the lowest value keep
+        // them.
         let mut base = self.to_value(self.stencils.lowest()).to_f64();
         let [lo, hi] = self.volume.range();
         if is_voxels && hi - lo > FAR * lo.abs().max(hi.abs()) {

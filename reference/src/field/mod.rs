@@ -51,7 +51,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use stencil::Stencils;
 
-/// A volume with a reconstruction: what the samples read. Clones share what was prepared.
+/// A volume with a reconstruction, from which samples are evaluated. Clones share the prepared data.
 #[derive(Clone, Debug)]
 pub struct Field<'v, R> {
     volume: &'v Volume,
@@ -61,8 +61,8 @@ pub struct Field<'v, R> {
     /// value = slope · number read + intercept.
     slope: R,
     intercept: R,
-    /// D⁻ᵀ with 0 for axes of length 1, times `derivative`: from the derivatives along the index axes of the numbers
-    /// read to world derivatives of the value times 2^−e.
+    /// D⁻ᵀ with 0 for axes of length 1, times `derivative`. It converts derivatives of the numbers read along the index
+    /// axes to world derivatives of the value, times 2^−e.
     to_world: Mat3<R>,
     /// D⁻ᵀ with 0 for axes of length 1.
     inverse_transpose: Mat3<R>,
@@ -74,7 +74,7 @@ pub struct Field<'v, R> {
     /// Present only for the `regression` gradient.
     regression: Option<Regression<R>>,
     second: Second<R>,
-    /// The formula that stands in for the voxels ([COST-2]); none: there is none.
+    /// The formula that replaces the voxels ([COST-2]), if there is one.
     formula: Option<Exact<'v>>,
 }
 
@@ -98,17 +98,18 @@ enum Second<R> {
 }
 
 impl<'v, R: Real> Field<'v, R> {
-    /// Prepares a volume for a reconstruction.
+    /// Prepares a volume for a reconstruction, up to the derivatives of a rung.
     ///
     /// # Errors
-    /// Any of [`FieldError`], for every rung.
+    /// Returns any error of [`FieldError`], whatever the rung.
     pub fn new(volume: &'v Volume, how: Reconstruction, rung: Rung) -> Result<Self, FieldError> {
         let is_integer = volume.is_integer();
         let how = Reconstruction { hessian: how.hessian.resolved(how.kernel, is_integer)?, ..how };
         let grid = volume.grid();
         let stencils = Stencils::new::<R>(volume);
 
-        // 2^e brings max|value| / voxel into [½, 1). Mantissas and exponents apart: the quotient may overflow.
+        // 2^e brings max|value| / voxel into [½, 1). Mantissas and exponents are divided apart, because the quotient
+        // may overflow.
         let (largest, voxel) = (volume.largest_magnitude(), grid.smallest_singular_value());
         let (a, b) = (math::exponent(largest), math::exponent(voxel));
         let quotient = math::scale_by_power_of_two(largest, -a) / math::scale_by_power_of_two(voxel, -b);
@@ -116,7 +117,7 @@ impl<'v, R: Real> Field<'v, R> {
         let exponent = a - b + c;
         let no_normal_below = R::from_f64(math::scale_by_power_of_two(quotient, -c)) * R::NO_NORMAL;
 
-        // Numbers are read times a power of two, which the slope takes back.
+        // Numbers are read times a power of two, which the slope cancels.
         let read = math::exponent(stencils.scale()) - 1;
         let derivative = math::scale_by_power_of_two(volume.slope(), -read - exponent);
         let slope = R::from_f64(math::scale_by_power_of_two(volume.slope(), -read));
@@ -162,7 +163,7 @@ impl<'v, R: Real> Field<'v, R> {
         })
     }
 
-    /// The estimator that Hessians come from: never `auto` ([REC-3]).
+    /// The estimator of Hessians. It is never `auto` ([REC-3]).
     pub fn hessian_estimator(&self) -> HessianEstimator {
         self.how.hessian
     }
@@ -177,7 +178,7 @@ impl<'v, R: Real> Field<'v, R> {
         self.how
     }
 
-    /// Ranges of values that no sample leaves, one for each brick of cells ([RAY-2]).
+    /// Ranges that contain every sample of the field, one range for each brick of cells ([RAY-2]).
     pub fn bricks(&self) -> Bricks {
         Bricks::new(self.volume.dims(), &|row| {
             let read = match &self.kernel {
@@ -190,13 +191,13 @@ impl<'v, R: Real> Field<'v, R> {
                     row.cells().map(|[first, end]| c.range(first, end)).collect()
                 }
             };
-            // Values are rounded as those of the samples are, which keeps the order.
+            // Bounds are rounded like the values of samples, which keeps the order.
             let rounded = |range| ranges::widened::<R>(range).map(|v| self.to_value(R::from_f64(v)).to_f64());
             read.into_iter().map(rounded).map(|[a, b]| [a.min(b), a.max(b)]).collect()
         })
     }
 
-    /// Bytes of what the field holds beside the volume, by name.
+    /// Bytes of the field's data beside the volume, by name.
     pub fn bytes(&self) -> BTreeMap<String, u64> {
         let mut bytes = BTreeMap::new();
         if let KernelData::Bspline(c) | KernelData::Bspline5(c) = &self.kernel {
@@ -211,18 +212,19 @@ impl<'v, R: Real> Field<'v, R> {
         bytes
     }
 
-    /// e of [SPACE-4]: gradients and Hessians are those of the world times 2^−e.
+    /// e of [SPACE-4]. Samplers return world gradients and Hessians times 2^−e.
     pub fn scale_exponent(&self) -> i32 {
         self.exponent
     }
 
-    /// The bound of [PREC-3] for gradients as the samplers give them, times 2^−e: at or below it there is no normal.
+    /// The bound of [PREC-3] for gradients as samplers return them, times 2^−e. A gradient of at most this length has
+    /// no normal.
     pub fn no_normal_below(&self) -> R {
         self.no_normal_below
     }
 
-    /// The value at a voxel: the formula's if there is one, d of the fit where the gradient is `regression`'s and
-    /// prepared for ([STIP-1]), else the voxel's own.
+    /// The value at a voxel. It is the formula's value if there is a formula. If a `regression` gradient was prepared,
+    /// it is d of the fit ([STIP-1]). Otherwise it is the voxel's own value.
     pub fn smoothed_value(&self, voxel: [usize; 3]) -> R {
         match &self.regression {
             _ if self.formula.is_some() => self.value(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
@@ -231,7 +233,7 @@ impl<'v, R: Real> Field<'v, R> {
         }
     }
 
-    /// Takes a phantom's own formula and its derivatives in place of the voxels: what reconstructions converge to
+    /// Replaces the voxels by the formula of a phantom and its derivatives. Reconstructions converge to this field
     /// ([COST-2]). Ranges of bricks remain those of the voxels.
     pub fn with_formula(self, phantom: &'v dyn Phantom) -> Self {
         let exact = Exact::new(phantom, self.volume.grid(), self.exponent);
@@ -249,12 +251,12 @@ impl<'v, R: Real> Field<'v, R> {
         matches!(self.kernel, KernelData::Trilinear) && self.formula.is_none()
     }
 
-    /// Whether samplers give gradients. All do, except by a `regression` that was not prepared for.
+    /// Whether samplers give gradients. Only a field with `regression`, prepared for values alone, has none.
     pub(crate) fn has_gradient(&self) -> bool {
         self.how.gradient != GradientEstimator::Regression || self.regression.is_some()
     }
 
-    /// [`Sampler::has_one_gradient`].
+    /// See [`Sampler::has_one_gradient`].
     #[inline(always)]
     pub(crate) fn has_one_gradient(&self) -> bool {
         self.how.gradient == GradientEstimator::Analytic && matches!(self.second, Second::Analytic)
@@ -266,7 +268,7 @@ impl<'v, R: Real> Field<'v, R> {
         TrilinearSampler(self)
     }
 
-    /// The cell of a position in index space, inside the box of [SPACE-1]: the same for every kernel.
+    /// The cell of a position in index space, inside the box of [SPACE-1]. It is the same for every kernel.
     #[inline]
     pub(crate) fn cell_of(&self, index: Vec3<R>) -> [usize; 3] {
         self.cells.locate(index).cell
@@ -277,7 +279,7 @@ impl<'v, R: Real> Field<'v, R> {
         self.slope * read + self.intercept
     }
 
-    /// D⁻ᵀ H D⁻¹ in the value's units, times 2^−e: scaled first, so that nothing overflows on the way.
+    /// D⁻ᵀ H D⁻¹ in the value's units, times 2^−e. H is scaled first, so that nothing overflows.
     fn to_world_hessian(&self, index: Sym3<R>) -> Sym3<R> {
         self.inverse_transpose.congruence(index.scaled(self.derivative))
     }

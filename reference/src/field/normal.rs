@@ -8,14 +8,14 @@ use drypoint_scene::shot::Outside;
 pub(crate) struct Normal<A: Arithmetic> {
     /// N.
     pub(crate) n: Vec3<A>,
-    /// Whether there is one.
+    /// Whether the normal exists.
     pub(crate) has: A::Mask,
     /// ‖g‖.
     pub(crate) length: A,
 }
 
 impl<A: Arithmetic> Normal<A> {
-    /// The formula of [`outward`].
+    /// See [`outward`], which has the same formula.
     #[inline(always)]
     pub(crate) fn outward(gradient: Vec3<A>, outside: Outside, no_normal_below: A::Number) -> Self {
         let length = gradient.length();
@@ -34,8 +34,8 @@ pub(super) fn outwards<A: Arithmetic>(length: A, outside: Outside) -> A {
     }
 }
 
-/// The outward unit normal of one gradient; none if ‖g‖ is at most the bound. The bound for a field's gradients is
-/// [`Field::no_normal_below`](super::Field::no_normal_below).
+/// The outward unit normal of a gradient. Returns none if ‖g‖ is at most the bound. The bound for a field's gradients
+/// is [`Field::no_normal_below`](super::Field::no_normal_below).
 #[inline(always)]
 pub fn outward<R: Real>(gradient: Vec3<R>, outside: Outside, no_normal_below: R) -> Option<Vec3<R>> {
     let Normal { n, has, .. } = Normal::outward(gradient, outside, no_normal_below);

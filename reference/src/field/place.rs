@@ -25,7 +25,7 @@ impl<R: Real> CellPosition<R> {
 pub(crate) struct Cells<R> {
     /// The last cell of each axis, max(N − 2, 0).
     last: [R; 3],
-    /// Whether an axis has length 1: its coordinate is ignored.
+    /// Whether each axis has length 1, so that its coordinate is ignored. None if no axis has.
     flat: Option<[bool; 3]>,
 }
 

@@ -1,4 +1,4 @@
-//! B-spline coefficients of samples, exactly, with the border that [REC-1] asks for.
+//! Exact B-spline coefficients of samples, with the border of [REC-1].
 //!
 //! Along a line the cubic spline takes the value (c₋₁ + 4c₀ + c₁)/6 at a sample, the quintic one (c₋₂ + 26c₋₁ + 66c₀ +
 //! 26c₁ + c₂)/120. Beyond the border c₋₁ = 3c₀ − 3c₁ + c₂ and c₋₂ = 6c₀ − 8c₁ + 3c₂, the recurrence applied twice. The
@@ -15,7 +15,7 @@ use drypoint_scene::parallel;
 /// The decomposed system of one line.
 #[derive(Clone, Debug)]
 pub(super) struct Prefilter<R> {
-    /// The factors subtracted from each sample: those of the sample before it and of the one before that.
+    /// The factors by which the two samples before each sample are subtracted from it, the nearer one first.
     forward: Vec<[R; 2]>,
     /// The factor of each sample, of the sample after it, and of the one after that.
     backward: Vec<[R; 3]>,
@@ -25,8 +25,8 @@ pub(super) struct Prefilter<R> {
 const CHUNK: usize = 4096;
 
 impl<R: Real> Prefilter<R> {
-    /// The system of n samples for the cubic (`pad` 1) or the quintic spline (`pad` 2); none where the samples are the
-    /// coefficients.
+    /// The system of n samples for the cubic (`pad` 1) or the quintic spline (`pad` 2). Returns none if n < 3, where
+    /// the samples are the coefficients.
     pub(super) fn new(n: usize, pad: usize) -> Option<Self> {
         if n < 3 {
             return None;
@@ -72,7 +72,7 @@ impl<R: Real> Prefilter<R> {
         }
     }
 
-    /// Solves `lanes` lines in place that lie side by side: sample i of all of them is the i-th run of `lanes` numbers.
+    /// Solves `lanes` lines in place that lie side by side. Sample i of all lines is the i-th run of `lanes` numbers.
     pub(super) fn solve_lanes(&self, c: &mut [R], lanes: usize) {
         let n = self.forward.len();
         for i in 0..n {
@@ -110,7 +110,7 @@ fn lane_by_lane<R: Real>(here: &mut [R], one: &[R], two: &[R], f: impl Fn(R, R, 
     if here.len() <= CHUNK { chunk(0, here) } else { parallel::chunks_mut(here, CHUNK, &chunk) }
 }
 
-/// The entries of row i at columns i − 2 … i + 2, in sixths or 120ths: the taps, those beyond the border folded back.
+/// The entries of row i at columns i − 2 … i + 2, in sixths or 120ths. Taps beyond the border are folded back.
 fn row(i: usize, n: usize, pad: usize) -> [f64; 5] {
     let taps: [f64; 5] = if pad == 1 { [0.0, 1.0, 4.0, 1.0, 0.0] } else { [1.0, 26.0, 66.0, 26.0, 1.0] };
     let mut row = [0.0; 5];

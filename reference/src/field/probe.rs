@@ -1,11 +1,12 @@
-//! Everything that the field says at one point, in world units ([CUR-1], [CUR-2], [NORM-1]).
+//! The field's value, derivatives, normal and curvatures at one point, in world units ([CUR-1], [CUR-2], [NORM-1]).
 
 use super::{Field, Outside, Sampler, curvature, normal};
 use crate::number::{Sym3, Vec3};
 use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 
-/// The field at one point. Derivatives are in value per world unit (squared), curvatures per world unit.
+/// The field at one point. Derivatives are in value per world unit, or per world unit squared; curvatures per world
+/// unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
     /// The value, after slope and intercept.
@@ -16,7 +17,8 @@ pub struct Probe {
     pub hessian: DMat3,
     /// N, the outward unit normal; none where the gradient is negligible ([PREC-3]).
     pub normal: Option<DVec3>,
-    /// The larger principal curvature; 0, as all curvatures, where one of the two gradients is negligible.
+    /// The larger principal curvature. All curvatures are 0 if the gradient, or that of the Hessian's field, is
+    /// negligible.
     pub k1: f64,
     /// The smaller principal curvature.
     pub k2: f64,
@@ -32,8 +34,8 @@ pub struct Probe {
     pub kv: Option<f64>,
 }
 
-/// Probes a field at a position in index space. None outside the box of [SPACE-1]. `view` points towards the eye; its
-/// length does not matter.
+/// Probes a field at a position in index space. Returns none outside the box of [SPACE-1]. `view` points towards the
+/// eye and may have any length.
 ///
 /// # Panics
 /// If the field was prepared for a lower rung than `Hessian`.
@@ -72,8 +74,8 @@ pub fn at_index(field: &Field<'_, f64>, index: DVec3, view: Option<DVec3>) -> Op
     })
 }
 
-/// Probes a field at a position in world space. See [`at_index`]. A position outside by no more than the rounding of
-/// its conversion to index space is moved to the border: 21.7 at a spacing of 0.7 is voxel 31, not 31.000000000000004.
+/// Probes a field at a position in world space. See [`at_index`]. A position that lies outside by rounding alone is
+/// moved to the border. For example, 21.7 at a spacing of 0.7 is voxel 31, not 31.000000000000004.
 ///
 /// # Panics
 /// If the field was prepared for a lower rung than `Hessian`.

@@ -11,11 +11,12 @@ const OVERSHOOT: f64 = 1.954;
 
 /// Lowest and highest voxel of the cells of each brick.
 pub(super) fn corners(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<[f64; 2]> {
-    // A cell ends at the voxel after its first one, where there is one.
+    // A cell ends at the voxel after its first one, if that voxel exists.
     voxels(stencils, row, 0, 1)
 }
 
-/// Lowest and highest number that the 4³ voxels around the cells of each brick have, those beyond the border continued.
+/// Lowest and highest number of the 4³ voxels around the cells of each brick, including voxels continued beyond the
+/// border.
 pub(super) fn supports<R: Real>(stencils: &Stencils<'_>, row: &BrickRow) -> Vec<[f64; 2]> {
     let dims = stencils.dims();
     let at_border = |a: usize, i: usize| i == 0 || i + 2 >= dims[a];
@@ -41,16 +42,17 @@ pub(super) fn overshot([lo, hi]: [f64; 2]) -> [f64; 2] {
     [middle - half, middle + half]
 }
 
-/// A range widened by what rounding can add: 8 ε of its largest magnitude, between four and eight of that number's last
-/// places. An interpolation a + w(b − a) with 0 ≤ w ≤ 1 leaves [a, b] by at most one and a half of them, and there are
-/// three interpolations. B-splines and Catmull–Rom exceed their range by less than the room that their bounds leave.
+/// A range widened by the possible rounding: 8 ε of its largest magnitude, between four and eight units in the last
+/// place of that number. An interpolation a + w(b − a) with 0 ≤ w ≤ 1 leaves [a, b] by at most one and a half units,
+/// and there are three interpolations. B-splines and Catmull–Rom exceed their range by less than the slack in their
+/// bounds.
 pub(super) fn widened<R: Real>([lo, hi]: [f64; 2]) -> [f64; 2] {
     let rounding = 8.0 * R::EPSILON.to_f64() * lo.abs().max(hi.abs());
     [lo - rounding, hi + rounding]
 }
 
-/// Lowest and highest voxel, as stencils read them, of each brick's cells, from `before` voxels before a cell to `after`
-/// voxels after it.
+/// Lowest and highest voxel read by each brick's cells, as stencils read them: from `before` voxels before a cell to
+/// `after` voxels after it.
 fn voxels(stencils: &Stencils<'_>, row: &BrickRow, before: usize, after: usize) -> Vec<[f64; 2]> {
     let dims = stencils.dims();
     let reached =

@@ -1,4 +1,4 @@
-//! Values and derivatives at positions: the part of a field that the ray loop is compiled for.
+//! Values and derivatives at positions. The ray loop is compiled for the types of this file.
 
 use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
 use super::place::CellPosition;
@@ -6,10 +6,10 @@ use super::{Field, GradientEstimator, KernelData, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
 use drypoint_scene::glam::DVec3;
 
-/// A field at positions in index space, inside the box of [SPACE-1]. Derivatives are those of the world times 2^−e,
-/// e = [`Field::scale_exponent`] ([SPACE-4]).
+/// Evaluates a field at positions in index space, inside the box of [SPACE-1]. Derivatives are world derivatives times
+/// 2^−e, e = [`Field::scale_exponent`] ([SPACE-4]).
 pub trait Sampler<R: Real>: Sync {
-    /// The cell of a position and where in it, the same for every kernel ([REC-1]).
+    /// The cell of a position and the fractions in it, the same for every kernel ([REC-1]).
     fn place(&self, p: Vec3<R>) -> CellPosition<R>;
 
     /// The value at a place, after slope and intercept.
@@ -23,8 +23,7 @@ pub trait Sampler<R: Real>: Sync {
         }
     }
 
-    /// Number of values worth computing at once: independent values hide latency, but those beyond the first ones
-    /// wanted are computed in vain.
+    /// Number of values worth computing at once. Independent values hide latency, but some of them may not be needed.
     #[inline(always)]
     fn at_once(&self) -> usize {
         1
@@ -36,8 +35,8 @@ pub trait Sampler<R: Real>: Sync {
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
     fn gradient_at(&self, at: CellPosition<R>) -> Vec3<R>;
 
-    /// The gradient at a voxel: the bits of [`gradient_at`](Self::gradient_at) its place except for the signs of zeros.
-    /// Faster for estimators that are defined on voxels.
+    /// The gradient at a voxel. It has the bits of [`gradient_at`](Self::gradient_at) except for the signs of zeros,
+    /// and is faster for estimators that are defined on voxels.
     ///
     /// # Panics
     /// If the estimator is `regression` and the field was prepared for a lower rung than `Gradient`.
@@ -46,21 +45,22 @@ pub trait Sampler<R: Real>: Sync {
         self.gradient(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))))
     }
 
-    /// The Hessian at a place by the field's estimator, and the gradient of the field that it belongs to ([CUR-1]), in
-    /// world space, times 2^−e.
+    /// The Hessian at a place by the field's estimator, and the gradient of the field that the Hessian belongs to
+    /// ([CUR-1]). Both are in world space, times 2^−e. The gradient comes first.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
     fn hessian_at(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>);
 
-    /// Whether [`hessian_at`](Self::hessian_at) gives the gradient of [`gradient_at`](Self::gradient_at), bit for bit.
+    /// Whether [`hessian_at`](Self::hessian_at) returns the gradient of [`gradient_at`](Self::gradient_at), bit for
+    /// bit.
     #[inline(always)]
     fn has_one_gradient(&self) -> bool {
         false
     }
 
-    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). None unless
-    /// the field in the cell is their trilinear interpolation.
+    /// The values at the corners of a cell, as pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1). Returns none
+    /// unless the field in the cell is their trilinear interpolation.
     #[inline(always)]
     fn corners(&self, _cell: [usize; 3]) -> Option<[[R; 2]; 4]> {
         None
@@ -72,19 +72,19 @@ pub trait Sampler<R: Real>: Sync {
         self.place(p).cell
     }
 
-    /// [`value_at`](Self::value_at) the place of a position.
+    /// The value at a position. See [`value_at`](Self::value_at).
     #[inline(always)]
     fn value(&self, p: Vec3<R>) -> R {
         self.value_at(self.place(p))
     }
 
-    /// [`gradient_at`](Self::gradient_at) the place of a position.
+    /// The gradient at a position. See [`gradient_at`](Self::gradient_at).
     #[inline(always)]
     fn gradient(&self, p: Vec3<R>) -> Vec3<R> {
         self.gradient_at(self.place(p))
     }
 
-    /// [`hessian_at`](Self::hessian_at) the place of a position.
+    /// The Hessian at a position. See [`hessian_at`](Self::hessian_at).
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
@@ -99,21 +99,21 @@ pub(super) trait Interpolant<R: Real>: Sync {
     /// The value.
     fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R;
 
-    /// The derivative of the kernel: `analytic`.
+    /// The derivative of the kernel, for the estimator `analytic`.
     fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R>;
 
-    /// First and second derivative of a kernel that is C²; for the others what `auto` takes, central differences.
+    /// Gradient and Hessian of a C² kernel. For the other kernels they are central differences, which `auto` takes.
     fn second(&self, field: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         (gradient::central::gradient(field, at), hessian::central::hessian(field, at))
     }
 }
 
-/// A field whose kernel is trilinear and that has no formula. Loops over samples are compiled for it apart: eight voxels
-/// are read so quickly that decisions and calls at each sample would take most of the time.
+/// A field whose kernel is trilinear and that has no formula. Loops over samples are compiled separately for it. Eight
+/// voxels are read so quickly that decisions and calls at each sample would take most of the time.
 #[derive(Clone, Copy)]
 pub struct TrilinearSampler<'f, 'v, R>(pub(super) &'f Field<'v, R>);
 
-/// Runs an expression with a field's kernel bound to a name; it is compiled for each kernel.
+/// Runs an expression with a field's kernel bound to a name. The expression is compiled for each kernel.
 macro_rules! with_kernel {
     ($field:expr, |$kernel:ident| $body:expr) => {
         match &$field.kernel {
@@ -196,13 +196,13 @@ impl<R: Real> Field<'_, R> {
         }
     }
 
-    /// ‖g‖² at every voxel of a row, times 4^−e: the product of [`Sampler::voxel_gradient`] with itself. `rows` is working
+    /// ‖g‖² at every voxel of a row, times 4^−e: the squared length of [`Sampler::voxel_gradient`]. `rows` is working
     /// memory, and `squares` is as long as the row.
     ///
     /// # Panics
     /// See [`Sampler::voxel_gradient`].
     pub(crate) fn voxel_squares(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) {
-        // A formula is asked at each voxel.
+        // A formula is evaluated at each voxel.
         let has_voxels = self.formula.is_none();
         if has_voxels && self.integer_squares([y, z], squares) {
             return;
@@ -280,8 +280,8 @@ impl<R: Real> Sampler<R> for TrilinearSampler<'_, '_, R> {
     }
 }
 
-/// A field decides on its kernel at every call. That is slower than a [`TrilinearSampler`], and one type for fields of any
-/// kernel.
+/// A field decides on its kernel at every call. This is slower than a [`TrilinearSampler`], but one type serves all
+/// kernels.
 impl<R: Real> Sampler<R> for Field<'_, R> {
     #[inline(always)]
     fn place(&self, p: Vec3<R>) -> CellPosition<R> {
@@ -351,7 +351,8 @@ impl<R: Real> Sampler<R> for Field<'_, R> {
     }
 }
 
-/// The sampler of a field: compiled apart for the trilinear kernel. [`with_sampler!`](crate::with_sampler) opens it.
+/// The sampler of a field, with a type of its own for the trilinear kernel. [`with_sampler!`](crate::with_sampler)
+/// unpacks it.
 pub enum AnySampler<'f, 'v, R> {
     /// Trilinear.
     Trilinear(TrilinearSampler<'f, 'v, R>),

@@ -1,7 +1,7 @@
 //! Sums of a separable kernel over the numbers around a cell.
 //!
-//! All sums run over differences to the number at the cell's first voxel. A constant field therefore has exactly its
-//! value, and derivatives that are exactly 0 ([REC-1], [REC-2]).
+//! All sums run over differences to the number at the cell's first voxel. So a constant field has exactly its value,
+//! and derivatives that are exactly 0 ([REC-1], [REC-2]).
 
 use crate::number::{Arithmetic, Real, Sym3, Vec3};
 use std::ops::{Add, Mul, Sub};
@@ -22,7 +22,7 @@ impl<W, A: Copy + Add<Output = A> + Sub<W, Output = A> + Mul<W, Output = A>> Row
 
 /// The rows around a cell: `row(j, k)` is tap j along y, k along z. The cell's first voxel is tap N/2 − 1 on each axis.
 pub(super) trait Rows<A> {
-    /// The row at (j, k); all rows may be shifted by one common constant.
+    /// The row at (j, k). All rows may be shifted by one common constant.
     fn row(&self, j: usize, k: usize) -> A;
 
     /// A row of zeros.
@@ -99,8 +99,8 @@ fn origin<R: Real, A: Into<[R; N]>, const N: usize>(rows: &impl Rows<A>) -> R {
     row[o]
 }
 
-/// Σ a b: the even terms, then the odd ones, then both. The compiler vectorizes pairs of sums of one shape, here and in
-/// the sums that these are made from.
+/// Σ a b: the even terms plus the odd ones. The compiler vectorizes pairs of sums of one shape, here and in the
+/// callers.
 #[inline(always)]
 fn dot<A: Arithmetic, const N: usize>(a: &[A; N], b: &[A; N]) -> A {
     let (mut even, mut odd) = (a[0] * b[0], a[1] * b[1]);

@@ -1,4 +1,4 @@
-//! Gradient and Hessian at voxels, sooner than at places between them ([REC-3]).
+//! Gradient and Hessian at voxels, faster than between them ([REC-3]).
 
 use super::{Field, Sampler, Second};
 use crate::number::{Real, Sym3, Vec3};
@@ -7,9 +7,9 @@ use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
 impl Field<'_, f64> {
-    /// Gradient and Hessian at a voxel: those of the sampler, up to rounding. Away from the border central differences
-    /// read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere the sampler itself is asked, and so it is where
-    /// a formula takes the place of voxels.
+    /// Gradient and Hessian at a voxel, equal to the sampler's up to rounding. Away from the border, central
+    /// differences read 19 voxels and a smoothed spline reads 27 coefficients. Elsewhere, and for a formula, the
+    /// sampler is called.
     ///
     /// # Panics
     /// If the field was prepared for a lower rung than `Hessian`.
@@ -64,7 +64,7 @@ pub(super) fn bends(d: impl Fn(usize, usize, usize) -> f64) -> Sym3<f64> {
 }
 
 /// Gradient and Hessian of a cubic B-spline at one of its coefficients, from the weights (1, 4, 1)/6 along each axis
-/// and their derivatives. In `d`, tap 1 is that coefficient.
+/// and their derivatives. Tap 1 of `d` is the coefficient at the voxel.
 #[inline(always)]
 pub(super) fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {
     let mean = |c: [f64; 3]| (c[0] + c[2]) * (1.0 / 6.0) + c[1] * (2.0 / 3.0);

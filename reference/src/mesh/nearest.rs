@@ -1,4 +1,4 @@
-//! The nearest place at which a line meets the meshes of a picture.
+//! The nearest intersection of a line with the meshes of a picture.
 
 use super::tree::{BoxTree, Slabs};
 use super::triangle::{Crossing, ShearedLine};
@@ -7,10 +7,10 @@ use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::space::Grid;
 use std::sync::Arc;
 
-/// The meshes of a picture, ready for lines.
+/// The meshes of a picture, prepared for intersection with lines.
 pub(crate) struct MeshSearch<'a> {
     meshes: &'a [TriangleMesh],
-    /// The number of triangles of the meshes before each.
+    /// The number of triangles of all meshes before each mesh.
     first: Vec<usize>,
     /// Corners of the triangles of all meshes, in the index space of lines.
     corners: Vec<[DVec3; 3]>,
@@ -22,11 +22,11 @@ pub(crate) struct MeshSearch<'a> {
 pub(crate) struct MeshHit {
     /// The parameter of the line.
     pub(crate) t: f64,
-    /// The mesh, by its place in the list.
+    /// The mesh, by its index in the list.
     pub(crate) mesh: usize,
     /// The triangle of the mesh.
     triangle: usize,
-    /// Weights of its corners, of the sum 1.
+    /// Barycentric weights of its corners, with the sum 1.
     weights: [f64; 3],
 }
 
@@ -50,7 +50,7 @@ impl<'a> MeshSearch<'a> {
         &self.corners
     }
 
-    /// The triangle of a place, among those of all meshes.
+    /// The index of a hit triangle among those of all meshes.
     #[cfg(test)]
     pub(super) fn place(&self, hit: &MeshHit) -> usize {
         self.first[hit.mesh] + hit.triangle
@@ -67,7 +67,8 @@ impl<'a> MeshSearch<'a> {
         meshes + size_of_val(self.corners.as_slice()) + self.tree.bytes()
     }
 
-    /// The nearest place on a line origin + t·along in a closed range of t. Of several triangles there it is the first.
+    /// The nearest place on a line origin + t·along in a closed range of t. If several triangles meet there, the first
+    /// in the list is returned.
     pub(crate) fn nearest(&self, line: [DVec3; 2], [from, to]: [f64; 2]) -> Option<MeshHit> {
         let sheared = ShearedLine::new(line)?;
         let mut best: Option<(Crossing, u32)> = None;
@@ -87,8 +88,8 @@ impl<'a> MeshSearch<'a> {
         Some(MeshHit { t, mesh, triangle: triangle as usize - self.first[mesh], weights })
     }
 
-    /// The unit normal at a place, in world space, on the side of v, which points to the eye: that of the triangle, or
-    /// the vertices' normals between them. None if it has no direction.
+    /// The unit normal at a place, in world space. It is interpolated from the vertices' normals, or else the
+    /// triangle's own, and lies on the side of v, which points to the eye. Returns none if the normal has no direction.
     pub(crate) fn normal(&self, hit: &MeshHit, v: DVec3) -> Option<DVec3> {
         let mesh = &self.meshes[hit.mesh];
         let corners = mesh.triangles()[hit.triangle].map(|i| i as usize);
@@ -99,13 +100,14 @@ impl<'a> MeshSearch<'a> {
             unit(a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2])
         });
         let normal = smooth.or(flat)?;
-        // Which side is seen the triangle says: a smooth normal can point away from the eye where the mesh does not.
+        // The triangle decides which side is seen. A smooth normal can point away from the eye although the triangle
+        // does not.
         let seen = flat.map_or(normal.dot(v), |flat| flat.dot(v) * if flat.dot(normal) < 0.0 { -1.0 } else { 1.0 });
         Some(if seen < 0.0 { -normal } else { normal })
     }
 }
 
-/// A vector of length 1; none for one without direction.
+/// A vector scaled to length 1. Returns none for a vector without direction.
 fn unit(v: DVec3) -> Option<DVec3> {
     let largest = v.abs().max_element();
     (largest > 0.0 && largest.is_finite()).then(|| (v / largest).normalize())

@@ -13,7 +13,7 @@ pub(super) struct BoxTree {
     nodes: Arc<[BoxNode]>,
 }
 
-/// A line prepared for boxes.
+/// A line prepared for intersection with boxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slabs {
     origin: DVec3,
@@ -21,13 +21,13 @@ pub(super) struct Slabs {
 }
 
 impl Slabs {
-    /// The line origin + t·along.
+    /// Prepares the line origin + t·along.
     pub(super) fn new([origin, along]: [DVec3; 2]) -> Self {
         Self { origin, inverse: along.recip() }
     }
 
-    /// The parameter at which the line enters a box, none if it misses the box. The parameter is a little early, and
-    /// a box that the line passes closely counts as met.
+    /// The parameter at which the line enters a box. Returns none if the line misses the box. The parameter is slightly
+    /// too small, and a box that the line narrowly misses counts as met.
     fn enters(&self, node: &BoxNode) -> Option<f64> {
         /// Relative errors of differences and products here, and of the test of a triangle, are a few ε.
         const SLACK: f64 = 64.0 * f64::EPSILON;
@@ -51,10 +51,10 @@ impl Slabs {
 }
 
 impl BoxTree {
-    /// Builds the tree over boxes, each of a lowest and a highest corner. There is at least one.
+    /// Builds the tree over boxes, given by their lowest and highest corners. There is at least one box.
     pub(super) fn new(boxes: &[[DVec3; 2]]) -> Self {
-        // f64 rounds to the nearest f32, from which the next one is on the safe side. Beyond the range of f32 a box has
-        // no end.
+        // f64 rounds to the nearest f32, and one step outwards from there is safe. Beyond the range of f32 a box has no
+        // end.
         let lo = |x: f64| (x as f32).next_down();
         let hi = |x: f64| (x as f32).next_up();
         let bound = |&[from, to]: &[DVec3; 2]| {
@@ -63,8 +63,8 @@ impl BoxTree {
             Aabb::new(corner(from, lo).into(), corner(to, hi).into())
         };
         let bounds: Vec<Aabb> = boxes.iter().map(bound).collect();
-        // The builder joins one pair of equal boxes at a time, so that it receives each box once. `order` has the
-        // places of equal boxes side by side.
+        // The builder joins equal boxes one pair at a time, so each box is passed once. `order` holds the indices of
+        // equal boxes side by side.
         let key = |i: u32| {
             let Aabb { min, max } = bounds[i as usize];
             [min.x, min.y, min.z, max.x, max.y, max.z].map(f32::to_bits)
@@ -102,8 +102,8 @@ impl BoxTree {
         size_of_val(&*self.nodes)
     }
 
-    /// Visits the boxes that a line can meet up to a parameter, nearer ones first as a rule. `visit` receives a box and
-    /// returns the parameter up to which further ones are asked for.
+    /// Visits the boxes that a line can meet up to a parameter, nearer ones first as a rule. `visit` receives the index
+    /// of a box and returns the parameter beyond which no further box is needed.
     pub(super) fn visit(&self, line: &Slabs, mut until: f64, mut visit: impl FnMut(u32) -> f64) {
         let mut open: Vec<(f64, &BoxNode)> = Vec::with_capacity(64);
         let enter = |node| line.enters(node).map(|t| (t, node));
@@ -124,7 +124,7 @@ impl BoxTree {
     }
 }
 
-/// Makes a node the root of a balanced tree over places of equal boxes. There is at least one place.
+/// Makes a node the root of a balanced tree over the indices of equal boxes. There is at least one index.
 fn hang(nodes: &mut Vec<BoxNode>, root: usize, places: &[u32]) {
     let mut open = vec![(root, places)];
     while let Some((node, places)) = open.pop() {

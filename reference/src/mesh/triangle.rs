@@ -2,14 +2,14 @@
 
 use drypoint_scene::glam::DVec3;
 
-/// A line origin + t·along, turned so that along is the third axis.
+/// A line origin + t·along, in coordinates whose third axis is along.
 ///
 /// The axes are permuted so that the largest component of along comes last, and corners are sheared along it. A corner
-/// has the same coordinates in every triangle that has it.
+/// has the same coordinates in every triangle that shares it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShearedLine {
     origin: DVec3,
-    /// The axes of x, y and z.
+    /// Indices of the axes that become x, y and z.
     axes: [usize; 3],
     /// along.x/along.z, along.y/along.z and 1/along.z.
     shear: [f64; 3],
@@ -25,7 +25,7 @@ pub(super) struct Crossing {
 }
 
 impl ShearedLine {
-    /// The line; none if it has no direction.
+    /// Prepares a line. Returns none if the line has no direction.
     pub(super) fn new([origin, along]: [DVec3; 2]) -> Option<Self> {
         let size = along.abs();
         let z = (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best });
@@ -35,18 +35,18 @@ impl ShearedLine {
         shear.iter().all(|s| s.is_finite()).then_some(Self { origin, axes, shear })
     }
 
-    /// The first two coordinates of a point, and its distance along the third axis.
+    /// The first two coordinates of a point in these axes, and its coordinate along the third.
     fn of(&self, point: DVec3) -> [f64; 3] {
         let ([x, y, z], p) = (self.axes, point - self.origin);
         [p[x] - self.shear[0] * p[z], p[y] - self.shear[1] * p[z], p[z]]
     }
 
-    /// The place at which the line crosses a triangle, edges and corners included, from either side. None for a triangle
-    /// that the line lies in, and for one without an area as the line sees it.
+    /// The place at which the line crosses a triangle from either side, including edges and corners. Returns none if
+    /// the triangle has no area as seen along the line.
     pub(super) fn crosses(&self, corners: [DVec3; 3]) -> Option<Crossing> {
         let [a, b, c] = corners.map(|corner| self.of(corner));
-        // Twice the areas that the line spans with the edges. Of two triangles with a common edge one has the negative of
-        // the other's, exactly, so that at least one of them has the line.
+        // Twice the areas that the line spans with the edges. Two triangles with a common edge get exactly opposite
+        // areas for it, so at least one of them contains the line.
         let area = |p: [f64; 3], q: [f64; 3]| q[0] * p[1] - q[1] * p[0];
         let areas = [area(b, c), area(c, a), area(a, b)];
         if areas.iter().any(|&w| w < 0.0) && areas.iter().any(|&w| w > 0.0) {

@@ -1,4 +1,5 @@
-//! Empty-space skipping ([RAY-2]): which bricks a transfer function can see, and where a ray meets them.
+//! Empty-space skipping ([RAY-2]): the bricks in which a transfer function can be visible, and their intersections with
+//! rays.
 
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
@@ -9,21 +10,21 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 /// A BVH over boxes of the visible bricks of a volume.
 ///
-/// No position in a visible brick is outside the intervals of its ray that the BVH gives. A position in an invisible
-/// one may be inside them: its sample is evaluated, shows nothing, and changes no bit.
+/// The intervals of a ray contain all its positions in visible bricks. They may contain positions in invisible bricks.
+/// Samples there are evaluated, show nothing, and change no bit.
 pub struct BrickOccupancy {
     nodes: Vec<TreeNode>,
     /// A bound on the coordinates inside the volume, for the rounding of positions.
     reach: f64,
 }
 
-/// A node of the tree, in f64: the boxes have whole and half numbers for ends, so f32 builds them exactly up to 2²³, and
-/// the walk need not convert.
+/// A node of the tree, in f64, so that the traversal need not convert. The ends of boxes are integers or integers + ½,
+/// which f32 holds exactly up to 2²³.
 #[derive(Clone, Copy, Debug)]
 struct TreeNode {
     /// Lowest and highest index coordinate on each axis.
     ends: [[f64; 2]; 3],
-    /// The first of two children side by side; 0, which is nobody's child, for a leaf.
+    /// Index of the first of two adjacent children. A leaf has 0, the index of the root.
     children: u32,
 }
 
@@ -35,7 +36,8 @@ struct BrickBox {
 }
 
 impl BrickOccupancy {
-    /// Marks the bricks for which `can_see` holds, of their place and range, and builds the tree over them.
+    /// Builds the tree over the bricks for which `can_see` holds. `can_see` receives the place of a brick and its
+    /// range.
     pub fn new(bricks: &Bricks, can_see: impl Fn([usize; 3], [f64; 2]) -> bool) -> Self {
         let [nx, ny, _] = bricks.dims;
         let place = |i: usize| [i % nx, i / nx % ny, i / nx / ny];
@@ -51,8 +53,8 @@ impl BrickOccupancy {
         size_of_val(self.nodes.as_slice())
     }
 
-    /// The boxes of visible bricks that a beam of rays can meet: one walk through the tree serves all of them. Nearer boxes
-    /// mostly come before farther ones.
+    /// The boxes of visible bricks that a beam of rays can meet. One traversal serves all rays of the beam. Nearer
+    /// boxes mostly come before farther ones.
     pub fn boxes_in(&self, beam: &Beam) -> RayIntervals {
         let mut boxes = RayIntervals { reach: self.reach, ..RayIntervals::default() };
         let mut open: Vec<&TreeNode> =
@@ -71,7 +73,7 @@ impl BrickOccupancy {
     }
 }
 
-/// RayIntervals of visible bricks, in index space, and what the last line met of them.
+/// Boxes of visible bricks, in index space, and the intervals in which the last line met them.
 #[derive(Clone, Debug, Default)]
 pub struct RayIntervals {
     ends: Vec<[[f64; 2]; 3]>,
@@ -80,18 +82,18 @@ pub struct RayIntervals {
 }
 
 impl RayIntervals {
-    /// Whether there is none.
+    /// Whether there are no boxes.
     pub(super) fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// Whether all of them are farther than half a voxel inside a box of index space.
+    /// Whether all boxes lie more than half a voxel inside a box of index space.
     pub(super) fn are_inside(&self, [lo, hi]: [DVec3; 2]) -> bool {
         let is_inside = |axis: usize, [from, to]: [f64; 2]| from > lo[axis] + 0.5 && to < hi[axis] - 0.5;
         self.ends.iter().all(|ends| (0..3).all(|axis| is_inside(axis, ends[axis])))
     }
 
-    /// Lowest and highest index coordinate of each on each axis.
+    /// Lowest and highest index coordinate of each box on each axis.
     pub(super) fn ends(&self) -> &[[[f64; 2]; 3]] {
         &self.ends
     }
@@ -106,8 +108,8 @@ impl RayIntervals {
         Line::new(origin, along, self.reach, rounding)
     }
 
-    /// The depths at which the line `origin + along · s` can be in one of the boxes, in order and without overlap, each
-    /// widened so that no position rounded by `rounding` (relative) is missed.
+    /// The depths at which the line `origin + along · s` can be in one of the boxes, in order and without overlap. The
+    /// intervals are widened so that no position rounded by `rounding` (relative) is missed.
     pub fn intervals(&mut self, line: [DVec3; 2], rounding: f64) -> &[[f64; 2]] {
         let line = self.line(line, rounding);
         self.intervals.clear();
@@ -123,8 +125,8 @@ impl RayIntervals {
 
 /// Half-spaces, in index space, that hold all positions of the rays of a tile.
 ///
-/// Each goes through two neighbouring corner rays. Positions lie between the corner rays up to their rounding, for which
-/// boxes are grown.
+/// Each plane goes through two neighbouring corner rays. Positions lie between the corner rays up to rounding, for
+/// which the half-spaces are enlarged.
 #[derive(Clone, Copy, Debug)]
 pub struct Beam {
     planes: [Plane; 4],
@@ -132,18 +134,18 @@ pub struct Beam {
     along: DVec3,
 }
 
-/// n·p ≥ least holds inside.
+/// The half-space n·p ≥ `least`.
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     normal: DVec3,
-    /// Which end of a box on each axis its farthest corner along the normal has.
+    /// The end of a box on each axis, 0 or 1, that its farthest corner along the normal has.
     farthest: [usize; 3],
     least: f64,
 }
 
 impl Beam {
-    /// From the four corner rays in cyclic order, each as origin and displacement for one unit of depth, rounded as all rays
-    /// are. A side whose corners fall together bounds nothing.
+    /// The beam of four corner rays in cyclic order, each given by its origin and its displacement for one unit of
+    /// depth, rounded as for all rays. A side whose corners coincide bounds nothing.
     pub fn new<R: Real>(corners: [[Vec3<R>; 2]; 4]) -> Self {
         let (corners, rounding) = (corners.map(|ray| ray.map(|v| v.to_glam())), R::EPSILON.to_f64());
         let at_depth_1 = corners.map(|[origin, along]| origin + along);
@@ -157,16 +159,16 @@ impl Beam {
             }
             let normal = normal * side.signum();
             let size = normal.abs().dot(origin.abs() + DVec3::splat(INDEX_SCALE));
-            // Off are the corner rays and the ray between them, each by the half ε of its direction over at most
-            // |origin| + |position|, twice the size; the position by three more halves of that; and the products here by
-            // five times the size: ten in all.
+            // Errors, in half ε: the corner rays and the ray between them are off by one each of |origin| + |position|,
+            // at most twice the size. The position is off by three more, and the products here by five times the size.
+            // The sum is ten.
             let farthest = normal.to_array().map(|n| usize::from(n > 0.0));
             Plane { normal, farthest, least: normal.dot(origin) - 16.0 * rounding * size }
         });
         Self { planes, along: corners.iter().map(|[_, along]| *along).sum() }
     }
 
-    /// Whether the centre of a box comes before that of another.
+    /// Whether the centre of a box is nearer than that of another box.
     #[inline]
     fn is_nearer(&self, [x, y, z]: &[[f64; 2]; 3], other: &[[f64; 2]; 3]) -> bool {
         let centre = DVec3::new(x[0] + x[1], y[0] + y[1], z[0] + z[1]);
@@ -175,7 +177,7 @@ impl Beam {
         self.along.dot(centre - other) < 0.0
     }
 
-    /// Whether some point of a box can lie inside: for each plane its farthest corner does.
+    /// Whether a box can meet the beam: its farthest corner lies in each half-space.
     #[inline]
     fn can_meet(&self, ends: &[[f64; 2]; 3]) -> bool {
         self.planes.iter().all(|plane| {
@@ -188,7 +190,7 @@ impl Beam {
 /// A bound on the coordinates inside a volume, for the rounding of positions: 2²⁰ voxels along an axis.
 const INDEX_SCALE: f64 = 1_048_576.0;
 
-/// A BVH over boxes, of which there is at least one.
+/// Builds a BVH over at least one box.
 fn tree(boxes: &[Aabb]) -> Vec<TreeNode> {
     let indices = (0..boxes.len() as u32).collect();
     let built = PlocBuilder::new().build(PlocSearchDistance::Low, boxes, indices, SortPrecision::U64, 0);
@@ -199,7 +201,7 @@ fn tree(boxes: &[Aabb]) -> Vec<TreeNode> {
     built.nodes.iter().map(node).collect()
 }
 
-/// Below this a line runs along the other axes.
+/// A line with a smaller component is treated as perpendicular to the axis.
 pub(super) const LEAST_ALONG: f64 = 1e-290;
 
 /// A line prepared for slab tests.
@@ -207,17 +209,19 @@ pub(super) const LEAST_ALONG: f64 = 1e-290;
 pub(super) struct Line {
     /// 1/along.
     inverse: [f64; 3],
-    /// Which end of a box the line meets first.
+    /// The end of a box, 0 or 1, that the line meets first on each axis.
     first: [usize; 3],
-    /// origin · `inverse` plus the margin. A line enters a box at the depth end · `inverse` − `enter`, a little early.
+    /// origin · `inverse` plus the margin. A line enters a box at the depth end · `inverse` − `enter`, slightly too
+    /// early.
     enter: [f64; 3],
-    /// origin · `inverse` minus the margin. A line leaves a box at the depth end · `inverse` − `leave`, a little late.
+    /// origin · `inverse` minus the margin. A line leaves a box at the depth end · `inverse` − `leave`, slightly too
+    /// late.
     leave: [f64; 3],
 }
 
 impl Line {
     fn new(origin: DVec3, along: DVec3, reach: f64, rounding: f64) -> Self {
-        // A line along the other axes meets the ends of this one very far away, or not at all.
+        // A line perpendicular to the axis meets the ends on this axis very far away, or not at all.
         let inverse = along.to_array().map(|d| if d.abs() < LEAST_ALONG { 1.0 / LEAST_ALONG } else { 1.0 / d });
         // Positions inside the volume are sums of numbers up to |origin| and the volume's own coordinates.
         let margin = |axis: usize| (origin[axis].abs() + reach) * 8.0 * rounding * inverse[axis].abs();
@@ -242,7 +246,7 @@ impl Line {
     }
 }
 
-/// Appends an interval, or joins it to the last one, which the box before mostly left where the next one begins.
+/// Appends an interval, or joins it to the last one. Mostly it begins where the last one ends.
 #[inline(always)]
 pub(super) fn add(intervals: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
     match intervals.last_mut() {
@@ -251,7 +255,8 @@ pub(super) fn add(intervals: &mut Vec<[f64; 2]>, [from, to]: [f64; 2]) {
     }
 }
 
-/// Sorts intervals and joins those that touch. RayIntervals come nearly in the order of a ray, and so do these.
+/// Sorts intervals and joins those that touch. They come nearly in order, since boxes come nearly in the order of the
+/// ray.
 pub(super) fn merge(intervals: &mut Vec<[f64; 2]>) {
     for i in 1..intervals.len() {
         let interval = intervals[i];
@@ -285,7 +290,8 @@ fn bounds(block: &BrickBox, dims: [usize; 3]) -> Aabb {
     Aabb::new(lo.into(), hi.into())
 }
 
-/// Joins visible bricks to disjoint boxes: runs along x, equal runs of neighbouring rows, equal sheets of rows.
+/// Joins visible bricks into disjoint boxes: runs along x, then equal runs of neighbouring rows, then equal sheets of
+/// neighbouring planes.
 fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<BrickBox> {
     let mut done = Vec::new();
     let mut sheets: Vec<BrickBox> = Vec::new();
@@ -320,7 +326,7 @@ fn blocks(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<BrickBox> {
     done
 }
 
-/// First and last of each run of true.
+/// The first and the last index of each run of `true`.
 fn runs(row: &[bool]) -> impl Iterator<Item = [usize; 2]> + '_ {
     let mut x = 0;
     std::iter::from_fn(move || {

@@ -1,4 +1,4 @@
-//! Empty-space skipping cell by cell ([RAY-2]), for kernels whose values are dear.
+//! Empty-space skipping cell by cell ([RAY-2]), for kernels whose values are expensive.
 
 use crate::field::{CELLS, Field, Kernel};
 use crate::number::Real;
@@ -6,19 +6,20 @@ use drypoint_scene::transfer::Function;
 use drypoint_scene::volume::{BRICK, Bricks};
 use std::sync::{Arc, OnceLock};
 
-/// Which cells a transfer function can see. A brick is looked at when the first ray comes there.
+/// The cells in which a transfer function can be visible. The cells of a brick are tested when the first ray reaches
+/// it.
 pub(super) struct CellMask {
     function: Arc<Function>,
     /// Bricks along x, y, z.
     dims: [usize; 3],
-    /// For each brick a bit a cell, x fastest.
+    /// One bit for each cell of each brick, x fastest.
     seen: Vec<OnceLock<u64>>,
 }
 
 const _: () = assert!(CELLS == u64::BITS as usize);
 
 impl CellMask {
-    /// A mask in which no cell is looked at yet; none for the trilinear kernel, whose values are cheap.
+    /// A mask without tested cells. Returns none for the trilinear kernel, whose values are cheap.
     pub(super) fn new(bricks: &Bricks, kernel: Kernel, function: &Arc<Function>) -> Option<Self> {
         let seen = || bricks.ranges.iter().map(|_| OnceLock::new()).collect();
         (kernel != Kernel::Trilinear).then(|| Self { function: function.clone(), dims: bricks.dims, seen: seen() })

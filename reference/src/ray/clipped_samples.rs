@@ -1,4 +1,4 @@
-//! The samples of a ray that clip planes leave ([RAY-8]).
+//! The samples of a ray that clip planes do not cut away ([RAY-8]).
 
 use super::lattice::IndexRay;
 use crate::number::{Real, Vec3};
@@ -7,8 +7,8 @@ use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 impl<R: Real> IndexRay<R> {
     /// The samples of a run inside the box [lo, hi] that no plane cuts away, as the closed range first..=last.
     ///
-    /// A sample is cut away if its position is. The region that is left is convex, so the samples in it are a run whose
-    /// ends are found by asking.
+    /// A sample is cut away if its position is. The remaining region is convex, so its samples form a run, whose ends
+    /// are found by testing positions.
     pub(super) fn left_by(&self, clip: &ClipPlanes, ends: [Vec3<R>; 2], [first, last]: [i64; 2]) -> [i64; 2] {
         if clip.is_empty() || first > last {
             return [first, last];
@@ -16,7 +16,7 @@ impl<R: Real> IndexRay<R> {
         let ([mut from, mut to], reach) = ([first, last], [self.depth(first), self.depth(last)]);
         for plane in &clip.0 {
             let (a, b) = self.beyond(plane);
-            // Rounding of positions, on the scale of the numbers that they are made of.
+            // The rounding of positions, relative to the numbers from which they are computed.
             let margin = 8.0 * R::EPSILON.to_f64() * self.scale(plane, ends);
             if b == 0.0 {
                 if a > margin {
@@ -24,7 +24,7 @@ impl<R: Real> IndexRay<R> {
                 }
                 continue;
             }
-            // The crossing, no farther than the run and a step beyond it.
+            // The sample at the crossing, clamped to the run and one step beyond it.
             let [near, far] = reach.map(Real::to_f64);
             let step = self.depth_step.to_f64();
             let crossing = ((margin - a) / b).max(near - step).min(far + step);
@@ -41,8 +41,8 @@ impl<R: Real> IndexRay<R> {
         [from, to]
     }
 
-    /// The first sample behind a cut, and the plane through which the ray comes to it, by its place in the list: the
-    /// last one that it crosses. None if nothing of the run before is cut away.
+    /// The first sample behind a cut, and the index of the plane through which the ray reaches it: the last plane that
+    /// the ray crosses. Returns none if no sample before it in the run is cut away.
     pub(super) fn cut_sample(&self, clip: &ClipPlanes, ends: [Vec3<R>; 2]) -> Option<(i64, usize)> {
         if clip.is_empty() {
             return None;
@@ -58,18 +58,18 @@ impl<R: Real> IndexRay<R> {
             let (a, b) = self.beyond(plane);
             (i, -a / b)
         });
-        // Of planes that are crossed together the first one counts.
+        // If several planes are crossed together, the first one in the list counts.
         let last = depths.reduce(|last, next| if next.1 > last.1 { next } else { last });
         last.map(|(plane, _)| (first, plane))
     }
 
-    /// a and b of a + b·depth, which is above 0 where a plane cuts the ray away.
+    /// a and b of a + b·depth, which is above 0 where the plane cuts the ray away.
     pub(super) fn beyond(&self, plane: &ClipPlane) -> (f64, f64) {
         let [origin, along] = self.line();
         (plane.beyond(origin), plane.index_normal.dot(along))
     }
 
-    /// The largest sum that m·p − c can contain for places p in the box [lo, hi].
+    /// A bound on the terms of m·p − c for positions p in the box [lo, hi].
     fn scale(&self, plane: &ClipPlane, [lo, hi]: [Vec3<R>; 2]) -> f64 {
         let [origin, _] = self.line();
         let largest = origin.abs() + 2.0 * lo.to_glam().abs().max(hi.to_glam().abs());

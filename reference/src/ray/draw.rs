@@ -17,7 +17,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Pixels that are drawn before they are gathered, so that a huge picture is not in memory twice.
+/// Number of pixels that are drawn before they are copied to the picture, so that a huge picture is not in memory
+/// twice.
 pub(super) const BATCH: usize = 1 << 20;
 
 /// The channels of a tile, pixel by pixel as [`in_blocks`] orders them.
@@ -31,7 +32,7 @@ struct TilePixels {
     counts: Counts,
 }
 
-/// Layers of a picture that are drawn, and what is kept beside them.
+/// The layers that are drawn.
 pub(super) struct Drawn<'l> {
     pub(super) layers: &'l [LayerKind],
     /// Whether the sums of each pixel's rays are kept.
@@ -42,17 +43,17 @@ pub(super) struct Drawn<'l> {
 pub(super) enum Casting<'c> {
     /// Tile by tile, when a tile is drawn.
     ByTile(&'c dyn CastAll),
-    /// Bands of tiles, each as a whole before its tiles are drawn: the results of each of its tiles.
+    /// Band by band. The function casts the rays of a band and returns the results of each tile.
     ByBand(&'c (dyn Fn(Band) -> Vec<(Vec<Cast>, Counts)> + Sync)),
 }
 
 /// Some rows of tiles of a picture.
 pub(super) struct Band {
-    /// Its tiles, in the order of the picture's.
+    /// Indices of its tiles in the picture.
     pub(super) tiles: Range<usize>,
     /// Its rays.
     pub(super) region: RayRect,
-    /// Converts the share of the band that is done to the picture's.
+    /// The shares of the picture's progress at which the band begins and ends.
     pub(super) share: [f64; 2],
 }
 
@@ -68,7 +69,7 @@ pub(super) struct RayRect {
 }
 
 impl RayRect {
-    /// The columns and the rows of a tile of the region, each from and up to, the latter excluded.
+    /// The columns and the rows of a tile of the region, as half-open ranges.
     pub(super) fn tile(&self, index: usize) -> [[usize; 2]; 2] {
         let across = self.size[0].div_ceil(self.side);
         let at = [index % across * self.side, index / across * self.side];
@@ -76,7 +77,7 @@ impl RayRect {
     }
 }
 
-/// Rows of tiles in a band of about so many rays, of a picture of a width and n² rays a pixel.
+/// Rows of tiles in a band of about `band` rays, in a picture of this width with n² rays for each pixel.
 fn tile_rows([width, n]: [usize; 2], tile: usize, band: usize) -> usize {
     (band / (width * n * n * tile)).clamp(1, 1 << 20)
 }
@@ -87,9 +88,9 @@ pub(super) fn largest_band<R: Real>(prepared: &Prepared<'_, R>, tile: usize, ban
     [width * n, tile_rows([width, n], tile, band).saturating_mul(tile).min(height) * n]
 }
 
-/// Casts all rays of a picture, in tiles of a side in pixels and bands of about so many rays. Each pixel is a function of
-/// its place alone, so neither threads nor the order of tiles show ([RAY-3]). Beside the picture it returns the kept sums
-/// of all pixels, row by row.
+/// Casts all rays of a picture, in tiles of `tile` pixels along the side and in bands of about `band` rays. Each pixel
+/// is a function of its place alone, so neither threads nor the order of tiles change it ([RAY-3]). Returns also the
+/// kept sums of all pixels, row by row.
 pub(super) fn draw<R: Real>(
     prepared: &Prepared<'_, R>,
     drawn: &Drawn<'_>,
@@ -154,7 +155,7 @@ pub(super) fn draw<R: Real>(
         } else {
             parallel::map_of(cast_before, &|t, casts| draw(first + t, Some(casts)))
         };
-        // The buffers of a band take the place of the last one's.
+        // The buffers of a band are reused for the next one.
         let mut of_batch = Counts::default();
         tiles.iter().for_each(|tile| of_batch.add(&tile.counts));
         counts.add_frame(&of_batch);
@@ -215,7 +216,7 @@ fn draw_tile<R: Real>(
     tile
 }
 
-/// The premultiplied background at a pixel of a picture so wide.
+/// The premultiplied background at each pixel of a picture of this width.
 pub(super) fn behind(background: Backdrop<'_>, width: usize) -> impl Fn([usize; 2]) -> Rgba {
     let everywhere = match background {
         Backdrop::Color(c) => color::premultiply(c),
@@ -227,7 +228,7 @@ pub(super) fn behind(background: Backdrop<'_>, width: usize) -> impl Fn([usize; 
     }
 }
 
-/// The rays of the tiles of a band, each tile's in the order in which [`draw`] asks for them.
+/// The rays of the tiles of a band. Each tile's rays are in the order in which [`draw`] reads them.
 pub(super) fn rays_of_tiles<R: Real>(prepared: &Prepared<'_, R>, side: usize, band: &Band) -> Vec<TileRays> {
     let n = prepared.rays_across;
     let whole = in_blocks([side; 2]);
@@ -247,8 +248,8 @@ pub(super) fn rays_of_tiles<R: Real>(prepared: &Prepared<'_, R>, side: usize, ba
     })
 }
 
-/// The point of a ray of the picture or of a guard band about it, in pixels from the top left corner; `n` rays lie across a
-/// pixel.
+/// The point of a ray of the picture, or of a guard band about it, in pixels from the top left corner. `n` rays lie
+/// across a pixel.
 pub(super) fn ray_point(n: usize, ray: [i64; 2]) -> [f64; 2] {
     let n = n as i64;
     ray.map(|i| part_centre(i.div_euclid(n) as f64, i.rem_euclid(n) as usize, n as usize))
@@ -286,18 +287,18 @@ impl TilePlace {
         TilePixels { x, y, size, pixels: Vec::new(), sums: Vec::new(), counts: Counts::default() }
     }
 
-    /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]); the first parts
-    /// of all pixels are cast, then the second ones, and so on.
+    /// The point of a part of a pixel. The n×n rays of a pixel go through the centres of its parts ([RAY-6]). The first
+    /// part of all pixels is cast first, then the second part, and so on.
     pub(super) fn point(&self, [i, j]: [usize; 2], part: usize, n: usize) -> [f64; 2] {
         [part_centre((self.at[0] + i) as f64, part % n, n), part_centre((self.at[1] + j) as f64, part / n, n)]
     }
 
-    /// Its pixels, from its first one, as [`in_blocks`] orders them.
+    /// The pixels of the tile, relative to its first one, as [`in_blocks`] orders them.
     pub(super) fn pixels(&self) -> Vec<[usize; 2]> {
         in_blocks(self.size)
     }
 
-    /// The boxes of visible bricks that its rays can meet; none where nothing is skipped.
+    /// The boxes of visible bricks that the tile's rays can meet. Returns none if nothing is skipped.
     pub(super) fn boxes<R: Real>(&self, prepared: &Prepared<'_, R>) -> Option<RayIntervals> {
         prepared.skip.as_ref().map(|skip| {
             let corner = |i: usize, j: usize| {
@@ -312,12 +313,12 @@ impl TilePlace {
     }
 }
 
-/// The pixels of a tile as [`in_blocks`] orders them, from those of a whole one.
+/// The pixels of a tile as [`in_blocks`] orders them. `whole` holds those of a complete tile.
 fn blocks_of(size: [usize; 2], whole: &[[usize; 2]]) -> Cow<'_, [[usize; 2]]> {
     if size[0] * size[1] == whole.len() { Cow::Borrowed(whole) } else { Cow::Owned(in_blocks(size)) }
 }
 
-/// The pixels of a tile, in blocks of 4 by 2: rays that are cast side by side are close together.
+/// The pixels of a tile, in blocks of 4 by 2, so that rays that are cast side by side are close together.
 fn in_blocks([width, height]: [usize; 2]) -> Vec<[usize; 2]> {
     let mut pixels = Vec::with_capacity(width * height);
     for y in (0..height).step_by(2) {

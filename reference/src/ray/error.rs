@@ -1,22 +1,22 @@
-//! Pictures that cannot be made.
+//! Errors of pictures.
 
 use super::lattice::{MOST_ACROSS, MOST_SAMPLES};
 use crate::field::FieldError;
 use crate::transfer::NodesError;
 
-/// A picture that cannot be made.
+/// An error that prevents a picture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RenderError {
     /// The field cannot be reconstructed as the scene asks.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// Sample planes that fall together ([RAY-1]): k + ½ has no half from 2⁵² on.
+    /// Sample planes coincide ([RAY-1]). From 2⁵² on k + ½ is not a number of f64.
     #[error("the volume reaches {planes:.1e} steps from the eye; f64 cannot distinguish sample planes that far away")]
     TooManyPlanes {
         /// The largest distance from the eye, in steps.
         planes: f64,
     },
-    /// A volume so many steps across that one ray takes long, and cannot be interrupted.
+    /// A volume with so many steps across that a single ray, which cannot be interrupted, takes long.
     #[error("the volume is about {steps:.1e} steps across, and at most {MOST_ACROSS:.0e} are drawn")]
     TooManySteps {
         /// Steps along the longest diagonal of its box.
@@ -28,22 +28,22 @@ pub enum RenderError {
         /// Samples of all rays, if none is skipped.
         samples: f64,
     },
-    /// The nodes make no function.
+    /// The nodes do not make a function.
     #[error(transparent)]
     Nodes(#[from] NodesError),
-    /// A quantity of the function is a volume that was not handed over.
+    /// The function is over a further volume, which was not handed over.
     #[error("the transfer function is over a further volume, and none was loaded")]
     NoFurtherVolume,
-    /// A quantity of the function reads labels, and there are none.
+    /// The function reads labels, which were not handed over.
     #[error("the transfer function reads labels, and there are none")]
     NoLabels,
-    /// A distance to a label that no voxel has.
+    /// No voxel has the label to which a distance is measured.
     #[error("no voxel has the label {id}")]
     NoSuchLabel {
         /// The label.
         id: u32,
     },
-    /// Data of objects that were not handed over.
+    /// The data of objects were not handed over.
     #[error("the shot has objects whose data were not handed over")]
     NoObjects,
     /// Objects in a picture of a phantom's formula.

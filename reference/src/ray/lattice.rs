@@ -8,22 +8,22 @@ use drypoint_scene::shot::{Lattice, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::{Ray, View};
 
-/// The most samples of a picture: beyond those a fast processor is busy for months.
+/// The largest number of samples of a picture. More keep a fast processor busy for months.
 pub const MOST_SAMPLES: f64 = 1e14;
 
-/// The most steps across a volume. A ray of so many samples takes about a second.
+/// The largest number of steps across a volume. A ray of this many samples takes about a second.
 pub const MOST_ACROSS: f64 = 1e7;
 
-/// From origins so many 1/ε voxels away rounding could move positions by a hundredth of a voxel.
+/// Distance of an origin, in 1/ε voxels, from which rounding could move positions by a hundredth of a voxel.
 const FAR: f64 = 1.0 / 1024.0;
 
-/// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped: the mean over rays
-/// through a coarse grid of pixels, times the number of pixels.
+/// About how many samples the rays through all pixel centres have in a grid's box, if none is skipped. It is the mean
+/// over a coarse grid of rays, times the number of pixels.
 pub fn samples_in(lattice: &Lattice, view: &View, grid: &Grid) -> f64 {
     samples_in_box(lattice, view, grid, grid.index_box())
 }
 
-/// About how many samples the rays have in a box of a grid's index space, as [`samples_in`].
+/// Like [`samples_in`], but in a box of a grid's index space.
 pub(super) fn samples_in_box(lattice: &Lattice, view: &View, grid: &Grid, ends: [DVec3; 2]) -> f64 {
     const SIDE: usize = 16;
     let [width, height] = view.size.map(|n| n as f64);
@@ -37,9 +37,10 @@ pub(super) fn samples_in_box(lattice: &Lattice, view: &View, grid: &Grid, ends: 
     width * height * (0..SIDE * SIDE).map(of_ray).sum::<f64>() / (SIDE * SIDE) as f64
 }
 
-/// One ray in index space, with its samples at whole numbers.
+/// One ray in index space, with samples at the integers k.
 ///
-/// The position of sample k is `origin + along · ((k + ½)·Δ)`: a function of the pixel and k, never accumulated.
+/// The position of sample k is `origin + along · ((k + ½)·Δ)`. It is a function of the pixel and k, and is never
+/// accumulated.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexRay<R> {
     pub(super) origin: Vec3<R>,
@@ -92,11 +93,11 @@ impl<R: Real> IndexRay<R> {
         Vec3::new(R::on_ray(o.x, a.x, t), R::on_ray(o.y, a.y, t), R::on_ray(o.z, a.z, t))
     }
 
-    /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last;
-    /// none where first > last.
+    /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last.
+    /// The range is empty if first > last.
     ///
-    /// Inside is decided on the position itself. Rounding is monotonic, so each coordinate is a monotonic function of
-    /// k, and the samples inside are a contiguous run whose ends are found by asking.
+    /// A sample is inside if its rounded position is. Rounding is monotonic, so each coordinate is a monotonic function
+    /// of k. The samples inside are therefore a contiguous run, whose ends are found by testing positions.
     pub fn inside(&self, [lo, hi]: [Vec3<R>; 2]) -> [i64; 2] {
         let Some(depths) = self.depths(lo, hi) else { return [1, 0] };
         let [mut first, mut last] = self.within(depths);
@@ -111,11 +112,12 @@ impl<R: Real> IndexRay<R> {
         [first, last]
     }
 
-    /// The samples that no plane cuts away and that can lie in visible bricks, whose depths are [`RayIntervals::intervals`]; without those all samples. Closed
-    /// ranges first..=last, in order.
+    /// The samples that no plane cuts away and that can lie in visible bricks, as closed ranges first..=last in order.
+    /// The depths of the bricks are [`RayIntervals::intervals`]. Without boxes, all samples that no plane cuts away are
+    /// returned.
     ///
-    /// Bounds of neighbouring intervals are rounded outwards to samples and can overlap: no sample is in two ranges, and
-    /// none outside the volume.
+    /// The bounds of intervals are rounded outwards to samples, so that neighbouring intervals can overlap. No sample
+    /// is in two ranges, and none is outside the volume.
     #[inline(always)]
     pub(super) fn visits<'b>(
         &self,
@@ -133,7 +135,7 @@ impl<R: Real> IndexRay<R> {
             .chain(self.parts([first, last], intervals))
     }
 
-    /// The samples at some depths, of a range of them that may be asked for.
+    /// The samples at some depths, limited to a range.
     #[inline(always)]
     pub(super) fn parts<'b>(
         &self,
@@ -150,14 +152,14 @@ impl<R: Real> IndexRay<R> {
         parts.filter(|[first, last]| first <= last)
     }
 
-    /// Whether sample k may be asked for: beyond `near` and inside the box.
+    /// Whether sample k is beyond `near` and inside the box.
     #[inline]
     pub fn has(&self, k: i64, [lo, hi]: [Vec3<R>; 2]) -> bool {
         k >= self.first && contains(lo, hi, self.position(k))
     }
 
-    /// The samples whose eye depth lies in a closed range, as the closed range first..=last; within rounding of its ends
-    /// perhaps one more.
+    /// The samples whose eye depth lies in a closed range, as the closed range first..=last. Rounding may add one more
+    /// at each end.
     pub fn within(&self, depths: [f64; 2]) -> [i64; 2] {
         let [near, far] = depths.map(|depth| depth / self.depth_step.to_f64() - 0.5);
         // The quotient and the difference are rounded.
@@ -188,7 +190,7 @@ impl<R: Real> IndexRay<R> {
         let mut range = [f64::NEG_INFINITY, f64::INFINITY];
         for axis in 0..3 {
             let (o, d) = (o[axis], d[axis]);
-            // A relative margin for the rounding of o + d·s in R, on the scale of the largest number in it.
+            // A margin for the rounding of o + d·s in R, relative to the largest number in it.
             let margin = 8.0 * R::EPSILON.to_f64() * (o.abs() + lo[axis].abs() + hi[axis].abs());
             let (lo, hi) = (lo[axis] - margin, hi[axis] + margin);
             if d == 0.0 {
@@ -206,8 +208,8 @@ impl<R: Real> IndexRay<R> {
 
 /// For rays that are cast in lanes, which compute in f64.
 impl IndexRay<f64> {
-    /// The samples of a ray that are inside the box if they are in boxes that are half a voxel inside it; none where rounding
-    /// could move them as far.
+    /// All samples beyond `near`, for a ray that is evaluated only in boxes half a voxel inside the volume. Returns
+    /// none if rounding could move positions by that much.
     #[inline(always)]
     pub(super) fn all_beyond_near(&self) -> Option<[i64; 2]> {
         let [x, y, z] = self.origin.to_glam().to_array();
@@ -215,7 +217,7 @@ impl IndexRay<f64> {
     }
 }
 
-/// ⌈x⌉, saturating. Without a call into a library, which `f64::ceil` is where the processor has no instruction for it.
+/// ⌈x⌉, saturating. `f64::ceil` calls a library function if the processor has no instruction for it.
 #[inline(always)]
 fn ceil(x: f64) -> i64 {
     let i = x as i64;

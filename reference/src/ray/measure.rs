@@ -12,11 +12,11 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{Axis, Number, Object, Reconstruction, Shot};
 use drypoint_scene::volume::Volume;
 
-/// Measures the data of each of a shot's objects, in their order. Objects of one volume share its numbers.
+/// Measures the data of each object of a shot, in their order. Objects of one volume share its numbers.
 ///
 /// # Errors
-/// A reconstruction that does not exist, sample planes that fall together, samples without end, labels that were not handed
-/// over, a label that no voxel has.
+/// The reconstruction does not exist, sample planes coincide, or there are too many samples. Labels were not handed
+/// over, or no voxel has a label.
 pub fn measure(shot: &Shot, inputs: &Inputs<'_>) -> Result<Vec<Measured>, RenderError> {
     match shot.number {
         Number::F64 => measure_in::<f64>(shot, inputs),
@@ -59,7 +59,7 @@ fn measure_in<R: Real>(shot: &Shot, inputs: &Inputs<'_>) -> Result<Vec<Measured>
     Ok(all)
 }
 
-/// The distances of voxels to labels, for each quantity of an object's function that is one ([STF-4]).
+/// The distances of voxels to labels, for each quantity of an object's function that is such a distance ([STF-4]).
 fn label_distances<R: Real>(object: &Object, data: &ObjectData<'_>) -> Result<[Option<Vec<f64>>; 2], RenderError> {
     let mut distances = [None, None];
     let rows = object.function.nodes().2;

@@ -1,5 +1,5 @@
-//! Lines inside a translucent volume ([HATCH-14] d), objects ([VS-2]), and cuts ([RAY-8]): rays with any of them are cast
-//! alone, the others side by side.
+//! Rays with lines inside a translucent volume ([HATCH-14] d), objects ([VS-2]) or cuts ([RAY-8]) are cast one by one,
+//! the others side by side.
 
 use super::lattice::IndexRay;
 use super::prepared::Prepared;
@@ -7,8 +7,8 @@ use super::prepared_combination::PreparedCombination;
 use super::tile_work::{CastAll, TileWork};
 use crate::number::Real;
 
-/// Casts rays with lines or a cut on them alone, and the others side by side; what comes out of each is appended in the order of the
-/// points.
+/// Casts rays with lines, objects or a cut one by one, and the others side by side. Appends the results in the order of
+/// the points.
 pub(super) fn cast_apart<R: Real>(
     prepared: &Prepared<'_, R>,
     [alone, together]: [&dyn CastAll; 2],

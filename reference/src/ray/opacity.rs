@@ -3,15 +3,15 @@
 use crate::number::{Double, Mask, Real};
 use drypoint_scene::math::transmittance;
 
-/// From an opacity α per reference length Δ₀ to that of one step: α(Δ) = 1 − (1 − α)^(Δ/Δ₀), as −expm1(Δ/Δ₀ · ln_1p(−α)):
-/// exact at α = 0 and α = 1 and without cancellation for tiny α. Half of Δ₀, a common step, needs a square root only, and
-/// a step of Δ₀ leaves α as it is.
+/// Converts an opacity α per reference length Δ₀ to that of one step: α(Δ) = 1 − (1 − α)^(Δ/Δ₀), computed as
+/// −expm1(Δ/Δ₀ · ln_1p(−α)). This is exact at α = 0 and α = 1, and without cancellation for tiny α. Half of Δ₀, a
+/// common step, needs only a square root. A step of Δ₀ leaves α unchanged.
 #[inline(always)]
 pub(super) fn correct<A: Double>(alpha: A, ratio: A) -> A {
     let (zero, one, width) = (alpha.zero(), alpha.one(), alpha.width());
     let (clear, opaque) = (alpha.at_most(zero), one.at_most(alpha));
     let (whole, half) = (ratio.equals(one), ratio.equals(one.half()));
-    // The logarithm is not finite where nothing passes.
+    // The logarithm of an opaque sample is not finite.
     let between = A::select(opaque, zero, alpha);
     let mut corrected = alpha;
     if !(clear | opaque | whole).all() {
@@ -34,12 +34,12 @@ pub struct Correction {
 }
 
 impl Correction {
-    /// For Δ_ray/Δ₀.
+    /// The correction for Δ_ray/Δ₀.
     pub fn new(ratio: f64) -> Self {
         Self { ratio }
     }
 
-    /// α(Δ). In f32 too it is computed in f64 and rounded once, at the end.
+    /// α(Δ). For f32 it is computed in f64 and rounded once.
     #[inline]
     pub fn apply<R: Real>(self, alpha: R) -> R {
         R::monotone([alpha], |[alpha]| correct(alpha, self.ratio))

@@ -11,8 +11,7 @@ use crate::surface::SurfaceHit;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 
-/// The accumulated opacity from which something counts as a visible structure. Fainter haze and noise in front of it is
-/// passed over.
+/// The accumulated opacity from which a structure counts as visible. Fainter haze and noise in front of it are ignored.
 pub const VISIBLE: f64 = 1.0 / 16.0;
 
 /// A place in the volume that was picked in the picture.
@@ -26,8 +25,8 @@ pub struct Picked {
     pub depth: f64,
     /// The value there; the iso-value on the iso-surface.
     pub value: f64,
-    /// The normal that shades ([NORM-1]), of length 1, in world space; on a cut that of the plane ([RAY-8]). None where the gradient is negligible ([PREC-3]), and
-    /// for gradients by regression that nothing in the picture reads.
+    /// The shading normal ([NORM-1]), of length 1, in world space; on a cut the normal of the plane ([RAY-8]). None if
+    /// the gradient is negligible ([PREC-3]), or if a gradient by regression was not prepared for the picture.
     pub normal: Option<DVec3>,
     /// A, the accumulated opacity, with this place included.
     pub opacity: f64,
@@ -35,8 +34,8 @@ pub struct Picked {
     pub label: Option<u32>,
     /// Whether the place is on the opaque iso-surface.
     pub on_surface: bool,
-    /// The mesh on which the place is, by its place in the list; none: it is on none. Value and label are then those of
-    /// the volume at the nearest place in its box.
+    /// Index of the mesh on which the place lies; none if it lies on no mesh. Value and label are then those of the
+    /// volume at the nearest place in its box.
     pub mesh: Option<usize>,
 }
 
@@ -65,11 +64,12 @@ impl Candidate {
 
 /// Picks the first visible structure on the ray through a point, in pixels from the top left corner.
 ///
-/// That is the first sample at which the accumulated opacity A reaches [`VISIBLE`]. If the whole ray stays below, it is the
-/// sample with the largest weight, and of equal ones the first. The iso-surface and meshes are samples at their own depths. Both rules
+/// It is the first sample at which the accumulated opacity A reaches [`VISIBLE`]. If A stays below on the whole ray, it
+/// is the first sample with the largest weight. The iso-surface and meshes are samples at their own depths. Both rules
 /// converge to a place on the ray as the step becomes smaller.
 ///
-/// Lines inside the picture are passed over. Returns none if the ray sees nothing, or if the point is outside the picture.
+/// Lines inside the picture are ignored. Returns none if nothing is visible on the ray, or if the point is outside the
+/// picture.
 pub(super) fn pick<R: Real>(
     prepared: &Prepared<'_, R>,
     labels: Option<&Labels<'_>>,
@@ -116,7 +116,7 @@ impl<'v, R: Real> RayState<'_, 'v, R, Field<'v, R>> {
             Candidate::Surface(hit) => (evaluator.inside(hit.t), hit.t),
             Candidate::Mesh(hit) => (evaluator.inside(hit.t), hit.t),
         };
-        // A moved object may lie outside of the volume.
+        // A moved object may lie outside the volume.
         let at = evaluator.sampler.place(if of_object.is_some() { evaluator.inside(depth) } else { position });
         let value = match (candidate, &self.prepared.surface) {
             (Candidate::Surface(_), Some(surface)) => surface.roots.iso(),

@@ -10,7 +10,7 @@ use drypoint_scene::picture::LayerKind;
 /// The rays of a pixel so far.
 #[derive(Default)]
 pub(super) struct PixelSum {
-    /// How many they are.
+    /// Number of rays.
     rays: u32,
     /// Σ of the beauty. It is divided by the number of rays at the end, so that a mean of opacities is at most 1.
     beauty: Rgba,
@@ -33,7 +33,7 @@ impl PixelSum {
         self.first.get_or_insert((cast.sums, cast.samples));
     }
 
-    /// Adds a ray to the beauty and to the layers that are means: its colour over the background, and its sums.
+    /// Adds a ray to the beauty and to the layers that are means. `color` is the ray's colour over the background.
     pub(super) fn add_means(&mut self, color: Rgba, sums: Option<&Sums>) {
         self.rays += 1;
         for (sum, c) in self.beauty.iter_mut().zip(color) {
@@ -44,13 +44,13 @@ impl PixelSum {
         }
     }
 
-    /// The beauty: the mean over the rays, of which there is at least one.
+    /// The beauty: the mean over the rays. There is at least one ray.
     fn mean(&self) -> Rgba {
         self.beauty.map(|sum| sum / f64::from(self.rays))
     }
 
-    /// Appends the channels of layers: of the beauty and of objects the mean; of the other layers that are means themselves
-    /// the mean over all samples of the pixel; of the others the first ray's.
+    /// Appends the channels of layers. The beauty, halos and objects are means over the rays. Other layers that are
+    /// means are means over all samples of the pixel. The remaining layers are the first ray's.
     pub(super) fn append<R: Real>(&self, prepared: &Prepared<'_, R>, layers: &[LayerKind], pixels: &mut Vec<f64>) {
         // A pixel has at least one ray, and a refined one no layers of its first.
         let (first, samples) = self.first.as_ref().map_or((None, 0), |(sums, samples)| (sums.as_deref(), *samples));
@@ -74,8 +74,8 @@ impl PixelSum {
     }
 }
 
-/// A ray's colour over the background ([IO-6]). With encoded compositing the colour comes in encoded; the background's
-/// straight colour is encoded and premultiplied, and the result is decoded ([VAL-3]).
+/// A ray's colour over the background ([IO-6]). With encoded compositing, the ray's colour is encoded. The background's
+/// straight colour is then encoded and premultiplied, and the result is decoded ([VAL-3]).
 fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
     let add = |behind: Rgba| {
         let mut front = Accumulator { rgb: [r, g, b], opacity: a };

@@ -1,4 +1,4 @@
-//! The preparation of a shot: everything that is measured or made of its data once a picture.
+//! The preparation of a shot: everything that is measured or built from its data once for each picture.
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
@@ -112,7 +112,7 @@ fn map_funnels<R: Real>(prepared: &mut Prepared<'_, R>, counts: &mut Counts) {
     prepared.combination = Some(combination);
 }
 
-/// Fields of volumes, and ranges of |g|: objects of one volume share them.
+/// Prepared fields, and ranges of |g|. Objects of one volume share them.
 pub(super) struct Fields<'a, R> {
     rung: Rung,
     fields: Vec<(Reconstruction, Field<'a, R>)>,
@@ -120,7 +120,7 @@ pub(super) struct Fields<'a, R> {
 }
 
 impl<'a, R: Real> Fields<'a, R> {
-    /// No fields yet; each is prepared for the highest rung of a shot's objects.
+    /// An empty collection. Fields are prepared for the highest rung of the shot's objects.
     pub(super) fn new(shot: &Shot) -> Self {
         let rung = shot.objects.iter().map(|object| object.rung).max().unwrap_or(Rung::Value);
         Self { rung, fields: Vec::new(), ranges: Vec::new() }
@@ -157,7 +157,7 @@ impl<'a, R: Real> Fields<'a, R> {
     }
 }
 
-/// The camera of a picture, as far as materials depend on it.
+/// The properties of the picture's camera on which materials depend.
 pub(super) struct Camera<'c> {
     pub(super) view: &'c View,
     pub(super) rays_across: usize,
@@ -169,11 +169,11 @@ pub(super) struct Camera<'c> {
 pub(super) struct MovedGrid<R> {
     /// The grid of the volume there.
     pub(super) grid: Grid,
-    /// L_Tᵀ; none where the volume is not moved.
+    /// L_Tᵀ; none if the volume is not moved.
     pub(super) moved: Option<Mat3<R>>,
 }
 
-/// Prepares a volume with its function and its material. Its samples may need anything.
+/// Prepares a volume with its function and its material. Its samples may need any quantity.
 pub(super) fn prepare_object<'a, R: Real>(
     (object, clipping): (&Object, &Clipping),
     data: &ObjectData<'a>,
@@ -228,7 +228,7 @@ pub(super) fn prepare_object<'a, R: Real>(
     })
 }
 
-/// Takes over what depends on the camera from the same shot of another one, with the same lens and picture.
+/// Takes over the camera's data from the same shot seen by another camera with the same lens and picture.
 pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Result<(), RenderError> {
     within_planes(shot, prepared.object.volume.grid())?;
     prepared.eye_axes = EyeAxes::new(&shot.view);
@@ -248,10 +248,11 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Resu
     Ok(())
 }
 
-/// Checks that sample planes are told apart all the way ([RAY-1]), and that the picture's samples have an end.
+/// Checks that sample planes can be distinguished all along the rays ([RAY-1]), and that the number of samples is not
+/// too large.
 ///
 /// # Errors
-/// Planes that fall together, samples without end.
+/// Sample planes coincide, or there are too many samples.
 pub fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
     let Shot { lattice, view, .. } = shot;
     let planes = lattice.planes(view, grid);
@@ -269,14 +270,14 @@ pub fn within_planes(shot: &Shot, grid: &Grid) -> Result<(), RenderError> {
 /// Marks the bricks in which the function can show something.
 fn skip<R: Real>(bricks: &Bricks, object: &Object, data: &ObjectData<'_>) -> BrickOccupancy {
     let labels = labels_of(object, data);
-    // The cells of the volume; an axis of length 1 has one.
+    // Number of cells of the volume. An axis of length 1 has one.
     let cells = data.volume.dims().map(|n| n.max(2) - 1);
     let occurring = |brick: [usize; 3]| {
         let end = std::array::from_fn(|a| ((brick[a] + 1) * BRICK).min(cells[a]));
         labels.as_ref().map(|labels| labels.ids_in(brick.map(|i| i * BRICK), end))
     };
     let rounded = |at| R::from_f64(at).to_f64();
-    // What labels occur takes a look at each voxel, so it is asked last.
+    // Finding the labels that occur reads each voxel, so this is tested last.
     let can_be = |range, among: Option<&[u32]>| object.function.can_be_visible(range, among, rounded);
     BrickOccupancy::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
 }
@@ -295,7 +296,7 @@ pub(super) fn gradient_range<R: Real>(field: &Field<'_, R>, range: GradientRange
     (R::from_f64(lo), R::from_f64(hi - lo))
 }
 
-/// The labels at the data's positions, where the function over the value has a row for each.
+/// The labels at the data's positions, if the function over the value has a row for each label.
 fn labels_of<'a>(object: &Object, data: &ObjectData<'a>) -> Option<Labels<'a>> {
     let over = &object.function.nodes().2?.over;
     let volume = data.volume;

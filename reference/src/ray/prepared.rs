@@ -1,4 +1,4 @@
-//! A shot prepared for casting: everything that is decided once a picture, not at samples.
+//! A shot prepared for casting: everything that is decided once for each picture, and not at samples.
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
@@ -17,20 +17,20 @@ use drypoint_scene::view::View;
 /// A shot ready to be cast.
 pub(super) struct Prepared<'v, R> {
     pub(super) object: PreparedObject<'v, R>,
-    /// Objects that are drawn with it, which then is the background; none: none.
+    /// Objects that are drawn with the background `object`, if there are any.
     pub(super) combination: Option<PreparedCombination<'v, R>>,
     pub(super) view: View,
     pub(super) lattice: Lattice,
     pub(super) skip: Option<BrickOccupancy>,
-    /// None: values are so cheap that all in visible bricks are computed, or nothing is skipped.
+    /// The mask of visible cells. None if values are cheap or nothing is skipped.
     pub(super) cells: Option<CellMask>,
-    /// Lines on the rays, at their depths; none: none.
+    /// Lines on the rays, at their depths, if there are any.
     pub(super) lines: Option<Fragments>,
-    /// An opaque iso-surface; none: none.
+    /// The opaque iso-surface, if there is one.
     pub(super) surface: Option<PreparedSurface<R>>,
-    /// Opaque meshes; none: none.
+    /// Opaque meshes, if there are any.
     pub(super) meshes: Option<PreparedMeshes<'v, R>>,
-    /// Halos; none: none.
+    /// Halos, if there are any.
     pub(super) halos: Option<PreparedHalos<'v>>,
     /// A at which a ray ends ([RAY-2]).
     pub(super) stop_at: R,
@@ -38,21 +38,21 @@ pub(super) struct Prepared<'v, R> {
     pub(super) encode: bool,
     /// Whether a layer beyond the beauty is asked for.
     pub(super) collects: bool,
-    /// The number of objects whose coverage is summed: the background is the first. 0: no layer shows coverage.
+    /// The number of objects whose coverage is summed, the background first. 0 if no layer shows coverage.
     pub(super) covering: usize,
     pub(super) layers: Vec<LayerKind>,
     pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.
     pub(super) rays_across: usize,
-    /// Contrast to a neighbour above which a pixel gets 3×3 rays; none: no pixel is refined.
+    /// Contrast to a neighbour above which a pixel gets 3×3 rays; none if no pixel is refined.
     pub(super) refine_above: Option<f64>,
 }
 
 impl<R: Real> Prepared<'_, R> {
-    /// The depth at which samples of a ray begin; −∞ in an orthographic picture.
+    /// The depth at which the samples of a ray begin. It is −∞ in an orthographic picture.
     pub(super) fn near_of(&self, ray: &IndexRay<R>) -> f64 {
         match self.view.perspective {
-            // Of shells near is the radius.
+            // For spherical shells, `near` is the radius.
             true => self.lattice.near * (ray.depth_step.to_f64() / self.lattice.step),
             false => f64::NEG_INFINITY,
         }

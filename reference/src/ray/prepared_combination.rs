@@ -33,23 +33,23 @@ pub(super) struct PreparedCombination<'v, R> {
     pub(super) parts: Vec<PreparedPart<'v, R>>,
     pub(super) cutaways: Vec<PreparedCutaway>,
     pub(super) intersections: Vec<PreparedIntersection<'v>>,
-    /// The part of the picture in which rays can meet the box of a selection, from the top left corner to the bottom right
-    /// one; none: all of it.
+    /// The part of the picture in which rays can meet the box of a selection, from the top left corner to the bottom
+    /// right corner. None stands for the whole picture.
     reach: Option<[[f64; 2]; 2]>,
 }
 
 /// A selection ready for look-ups.
 pub(super) struct PreparedSelection<'v, R> {
     pub(super) membership: PreparedMembership<'v, R>,
-    /// The box of [VS-2], in the index space of the memberships' grid; none: nothing is selected.
+    /// The box of [VS-2], in the index space of the memberships' grid; none if nothing is selected.
     pub(super) index_box: Option<[DVec3; 2]>,
     /// The box in which there can be members.
     pub(super) members: Option<[DVec3; 2]>,
     /// The grid of the memberships at the original place.
     pub(super) here: Grid,
-    /// The grid of the memberships where M moves it; none: the object is not moved.
+    /// The grid of the memberships where M moves it; none if the object is not moved.
     pub(super) there: Option<Grid>,
-    /// Whether the selection is a piece of the background's volume, which it is taken from.
+    /// Whether the selection is a piece of the background's volume, from which it is then removed.
     pub(super) takes: bool,
 }
 
@@ -66,19 +66,19 @@ pub(super) enum PreparedMembership<'v, R> {
 /// A selection or a ghost ready for samples.
 pub(super) struct PreparedPart<'v, R> {
     pub(super) object: PreparedObject<'v, R>,
-    /// The place of its selection.
+    /// Index of its selection.
     pub(super) selection: usize,
-    /// Whether it is drawn where M moves it.
+    /// Whether the part is drawn where M moves the object.
     pub(super) is_moved: bool,
-    /// Whether its samples are those of the background: the same volume at the same place.
+    /// Whether the part's samples are those of the background: the same volume at the same place.
     pub(super) is_of_background: bool,
-    /// The seeds of halos among its samples; none: no halo takes it.
+    /// The seeds of halos among the part's samples; none if no halo takes the part.
     pub(super) seeds: Option<PreparedSeeds<'v>>,
-    /// The bricks of its volume; none where nothing is skipped.
+    /// The bricks of the part's volume; none if nothing is skipped.
     bricks: Option<PartBricks>,
 }
 
-/// Which bricks of a part's volume its samples are asked in.
+/// The bricks of a part's volume in which samples are evaluated.
 struct PartBricks {
     bricks: Bricks,
     /// For each brick, whether the part's function can show something in it.
@@ -90,11 +90,12 @@ struct PartBricks {
 /// A cutaway with what depends on the camera.
 pub(super) struct PreparedCutaway {
     pub(super) params: Cutaway,
-    /// The map of its funnel; none: a hard cut.
+    /// The map of the cutaway's funnel; none for a hard cut.
     pub(super) funnel: Option<PreparedFunnel>,
 }
 
-/// The map of a funnel over the picture and the guard band of its halos, whose seeds are cut as in a larger picture.
+/// The map of a funnel over the picture and the guard band of its halos. Seeds in the guard band are cut as in a larger
+/// picture.
 pub(super) struct PreparedFunnel {
     map: FunnelMap,
     /// Pixels of the map across and down.
@@ -113,7 +114,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     /// Prepares the objects of a shot.
     ///
     /// # Errors
-    /// Data that were not handed over, and faults of a part's function and material.
+    /// Data were not handed over, or a part's function or material is invalid.
     pub(super) fn new(
         (shot, combination): (&Shot, &Combination),
         inputs: &Inputs<'v>,
@@ -153,7 +154,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
                         (grid_in(data, world), PreparedMembership::Value(Piecewise::new(&at, &f)?))
                     }
                 };
-                // What a selection by value has between voxels, ranges of bricks tell.
+                // Ranges of bricks tell where a selection by value can have members between voxels.
                 let field = parts.iter().find(|part| part.selection == i).map(|part| &part.object.field);
                 let by_value = matches!(params.membership, Membership::Value(_));
                 let bricks = field.filter(|_| by_value).map(Field::bricks);
@@ -175,7 +176,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         })
     }
 
-    /// The map of a cutaway's funnel; none for a hard cut.
+    /// The map of a cutaway's funnel. Returns none for a hard cut.
     pub(super) fn funnel_of(
         &self,
         cutaway: usize,
@@ -208,7 +209,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         Some(PreparedFunnel { map: FunnelMap::new(size, params.funnel, &depths), size, margin })
     }
 
-    /// Whether the ray through a point of the picture can meet an object, or a cutaway for one.
+    /// Whether the ray through a point of the picture can meet an object or a cutaway.
     pub(super) fn meets(&self, prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
         let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
         if self.cutaways.iter().any(in_funnel) {
@@ -227,7 +228,8 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             .any(|s| through(&s.here, s.members) || s.there.as_ref().is_some_and(|grid| through(grid, s.members)))
     }
 
-    /// About how many samples the rays have in the boxes of objects that are not pieces of the background at their place.
+    /// About how many samples the rays have in the boxes of objects, except for pieces of the background at their own
+    /// place.
     pub(super) fn samples(&self, lattice: &Lattice, view: &View) -> f64 {
         let apart = self.selections.iter().filter(|selection| selection.there.is_some() || !selection.takes);
         let of = |selection: &PreparedSelection<'_, R>| {
@@ -237,7 +239,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         apart.map(of).sum()
     }
 
-    /// Takes over what depends on the camera.
+    /// Takes over the camera's data from another shot.
     pub(super) fn turn(&mut self, shot: &Shot) {
         for (prepared, (_, object)) in self.parts.iter_mut().zip(shot.parts()) {
             prepared.object.shader.turn(object, &shot.view);
@@ -246,7 +248,7 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
     }
 }
 
-/// The part of a picture in which rays can meet the box of a selection; none where a box reaches behind the eye.
+/// The part of a picture in which rays can meet the box of a selection. Returns none if a box reaches behind the eye.
 fn reach<R>(selections: &[PreparedSelection<'_, R>], view: &View) -> Option<[[f64; 2]; 2]> {
     // Rounding stays below a pixel.
     const MARGIN: f64 = 1.0;
@@ -266,7 +268,7 @@ fn reach<R>(selections: &[PreparedSelection<'_, R>], view: &View) -> Option<[[f6
 }
 
 impl PreparedFunnel {
-    /// d̃ on the ray through a point of the picture: [`FunnelMap::depth`].
+    /// d̃ on the ray through a point of the picture. See [`FunnelMap::depth`].
     pub(super) fn depth(&self, point: [f64; 2], z_in: f64, d: f64) -> f64 {
         self.map.depth(self.pixel(point), z_in, d)
     }
@@ -276,7 +278,7 @@ impl PreparedFunnel {
         self.map.cuts(self.pixel(point))
     }
 
-    /// The pixel of the map at a point of the picture; beyond its border the nearest one.
+    /// The pixel of the map at a point of the picture. A point beyond the border gets the nearest pixel.
     fn pixel(&self, point: [f64; 2]) -> [usize; 2] {
         let pixel = |a: usize| (point[a].floor() as i64).saturating_add(self.margin as i64).max(0) as usize;
         [0, 1].map(|a| pixel(a).min(self.size[a] - 1))
@@ -327,13 +329,13 @@ impl<'v, R: Real> PreparedPart<'v, R> {
         Ok(Self { object: prepared, selection: part.object, is_moved, is_of_background, seeds, bricks })
     }
 
-    /// Whether a sample in a cell of its volume can show something.
+    /// Whether a sample in a cell of the part's volume can show something.
     #[inline]
     pub(super) fn can_show(&self, cell: [usize; 3]) -> bool {
         self.bricks.as_ref().is_none_or(|own| own.show[own.bricks.of_cell(cell)])
     }
 
-    /// Whether a sample in a cell of its volume can seed a halo.
+    /// Whether a sample in a cell of the part's volume can seed a halo.
     #[inline]
     pub(super) fn can_seed(&self, cell: [usize; 3]) -> bool {
         self.bricks.as_ref().is_none_or(|own| own.seed[own.bricks.of_cell(cell)])
@@ -341,7 +343,7 @@ impl<'v, R: Real> PreparedPart<'v, R> {
 }
 
 impl PartBricks {
-    /// Looks at the bricks of a part's field.
+    /// Tests the bricks of a part's field.
     fn new<R: Real>(field: &Field<'_, R>, (part, object): (&Part, &Object)) -> Self {
         let (bricks, function) = (field.bricks(), &object.function);
         let rounded = |at| R::from_f64(at).to_f64();
@@ -354,7 +356,7 @@ impl PartBricks {
     }
 }
 
-/// The seeds of halos among the samples of a part; none where no halo takes it.
+/// The seeds of halos among the samples of a part. Returns none if no halo takes the part.
 fn seeds_of<'v>(
     part: &Part,
     halos: &Halos,

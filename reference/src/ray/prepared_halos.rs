@@ -10,20 +10,20 @@ use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{BlendSpace, SampleQuery, Shot};
 use drypoint_scene::volume::{BRICK, Bricks};
 
-/// Halos, and what samples are asked for their seeds.
+/// Halos, and the queries of samples for their seeds.
 pub(super) struct PreparedHalos<'v> {
     pub(super) list: Vec<PreparedHalo>,
-    /// The seeds among the samples of the volume; none: all halos take other parts.
+    /// The seeds among the samples of the volume; none if all halos take other parts.
     pub(super) seeds: Option<PreparedSeeds<'v>>,
-    /// The bricks of the volume in which a sample can seed; none where nothing is skipped.
+    /// The bricks of the volume in which a sample can seed; none if nothing is skipped.
     pub(super) skip: Option<BrickOccupancy>,
 }
 
 impl<'v> PreparedHalos<'v> {
-    /// Prepares the halos of a shot; none where it has none.
+    /// Prepares the halos of a shot. Returns none if it has none.
     ///
     /// # Errors
-    /// Nodes of h_v that make no function, labels that were not handed over.
+    /// The nodes of an h_v do not make a function, or labels were not handed over.
     pub(super) fn new(
         shot: &Shot,
         data: &ObjectData<'v>,
@@ -51,7 +51,7 @@ impl<'v> PreparedHalos<'v> {
             let end: [usize; 3] = std::array::from_fn(|a| (first[a] + BRICK).min(cells[a]));
             let [lo, hi] = [first, end].map(|corner| DVec3::from_array(corner.map(|i| i as f64)));
             let centre = grid.to_world((lo + hi) * 0.5);
-            // On an axis of length 1 coordinates reach half a voxel beyond.
+            // On an axis of length 1, coordinates reach half a voxel beyond.
             let half = (hi - lo) * 0.5 + DVec3::splat(0.5);
             let radius = grid.axes().x_axis.length() * half.x
                 + grid.axes().y_axis.length() * half.y
@@ -69,12 +69,12 @@ impl<'v> PreparedHalos<'v> {
         Ok(Some(Self { list, seeds: Some(seeds), skip }))
     }
 
-    /// Rays of the guard band that all halos need around the picture.
+    /// Number of rays of the guard band that all halos need around the picture.
     pub(super) fn guard(&self) -> usize {
         guard(&self.list)
     }
 
-    /// The place of a halo among those that layers show.
+    /// The index of a halo among those that layers show.
     pub(super) fn watched_place(&self, halo: usize) -> Option<usize> {
         let is_watched = self.list.get(halo).is_some_and(|halo| halo.is_watched);
         is_watched.then(|| self.list[..halo].iter().filter(|halo| halo.is_watched).count())

@@ -1,5 +1,4 @@
-//! The seeds of halos among the samples of one volume at one place ([HALO-2], [VS-2]): of the background, a selection or a
-//! ghost.
+//! The seeds of halos among the samples of the background, a selection or a ghost ([HALO-2], [VS-2]).
 
 use super::error::RenderError;
 use crate::labels::Labels;
@@ -8,28 +7,28 @@ use drypoint_scene::inputs::ObjectData;
 use drypoint_scene::shot::{HaloParams, HaloSeed, LabelLookup, SampleQuery, SeedValue};
 use drypoint_scene::transfer::{Function, can_be_above_zero};
 
-/// The seeding of all halos, and what samples are asked for it.
+/// The seeding of all halos, and the queries of samples for it.
 pub(super) struct PreparedSeeds<'v> {
-    /// The seeding of each halo, in their order.
+    /// The seeding of each halo, in the halos' order.
     pub(super) list: Vec<Seeding>,
     /// The query of samples that can seed.
     pub(super) query: SampleQuery,
-    /// The part of the query that α_u of a function over two quantities has not asked before.
+    /// The part of the query that remains after α_u of a function over two quantities.
     pub(super) rest: SampleQuery,
     /// Whether some h_v is α_u.
     pub(super) reads_opacity: bool,
-    /// Whether there is some h_p.
+    /// Whether there is an h_p.
     pub(super) reads_places: bool,
-    /// The labels, if there is some h_l.
+    /// The labels, if there is an h_l.
     pub(super) labels: Option<Labels<'v>>,
 }
 
 impl<'v> PreparedSeeds<'v> {
-    /// Prepares the seeding of halos by the samples of a volume. `over_two` is what a function over two quantities asks
-    /// before α_u is known.
+    /// Prepares the seeding of halos by the samples of a volume. `over_two` is the query of a function over two
+    /// quantities, which is evaluated before α_u is known.
     ///
     /// # Errors
-    /// Nodes of h_v that make no function, labels that were not handed over.
+    /// The nodes of an h_v do not make a function, or labels were not handed over.
     pub(super) fn new(
         (halos, query): (&[HaloParams], SampleQuery),
         data: &ObjectData<'v>,
@@ -51,7 +50,7 @@ impl<'v> PreparedSeeds<'v> {
     }
 }
 
-/// Whether h_v can be above 0 at a value of a range; `rounded` is a value in the number type of samples.
+/// Whether h_v can be above 0 at a value of a range. `rounded` rounds to the number type of samples.
 pub(super) fn can_seed_at(
     seed: &HaloSeed,
     function: &Function,

@@ -1,4 +1,4 @@
-//! The iso-surface of a picture, at which rays end ([HATCH-14]).
+//! The opaque iso-surface of a picture, where rays end ([HATCH-14]).
 
 use super::sample::Lit;
 use crate::field::Field;
@@ -8,15 +8,15 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{OpaqueSurface, SampleQuery};
 use drypoint_scene::volume::Bricks;
 
-/// An iso-surface ready for rays.
+/// An iso-surface prepared for rays.
 pub(super) struct PreparedSurface<R> {
     pub(super) roots: RootFinder,
-    /// Linear.
+    /// Linear colour.
     pub(super) rgb: [R; 3],
     pub(super) lit: Lit<R>,
     /// The query of a place on the surface.
     pub(super) query: SampleQuery,
-    /// The query of a place beyond that where nothing lies before it, for the layers `first.*`.
+    /// The further query of a place with nothing in front of it, for the layers `first.*`.
     pub(super) first: SampleQuery,
     /// Whether the surface is drawn alone, without the volume.
     pub(super) alone: bool,

@@ -1,17 +1,17 @@
-//! The progress of a frame, and its end before all is drawn.
+//! The progress of a frame, and its early stop.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The progress of a frame or of a part of it.
 #[derive(Clone, Copy)]
 pub(crate) struct FrameProgress<'p> {
-    /// Hears the share of the frame that is done, from any thread.
+    /// Receives the share of the frame that is done, on any thread.
     pub(crate) hear: &'p (dyn Fn(f64) + Sync),
     /// The flag that stops the frame.
     pub(crate) stop: &'p AtomicBool,
-    /// Whether the frame was stopped, whatever becomes of the flag.
+    /// Whether the frame was stopped. Once set, it stays set, whatever happens to `stop`.
     pub(crate) stopped: &'p AtomicBool,
-    /// The shares of the frame between which the part lies.
+    /// The shares of the frame at which the part begins and ends.
     pub(crate) between: [f64; 2],
 }
 
@@ -22,12 +22,12 @@ impl FrameProgress<'_> {
         Self { between, ..self }
     }
 
-    /// Tells the share that is done.
+    /// Reports the share that is done.
     pub(crate) fn tell(self, share: f64) {
         (self.hear)(self.of_frame(share));
     }
 
-    /// Whether nothing more is drawn.
+    /// Whether drawing has been stopped.
     pub(crate) fn is_stopped(self) -> bool {
         self.stopped.fetch_or(self.stop.load(Ordering::Relaxed), Ordering::Relaxed);
         self.stopped.load(Ordering::Relaxed)

@@ -1,7 +1,7 @@
-//! Adaptive antialiasing ([RAY-7]): one ray a pixel, then 3×3 at edges.
+//! Adaptive antialiasing ([RAY-7]): one ray for each pixel, then 3×3 at edges.
 //!
-//! The first picture has one ray a pixel. Which pixels are refined follows from it alone, so neither threads nor tiles
-//! show. The ray of the first picture is the middle one of the nine of a refined pixel and is not cast again.
+//! The first picture has one ray for each pixel. It alone determines which pixels are refined, so neither threads nor
+//! tiles change the result. Its ray is the middle one of the nine of a refined pixel and is not cast again.
 
 use super::composite::{Sums, covering_objects};
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
@@ -20,10 +20,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Rays across a refined pixel.
 const ACROSS: usize = 3;
 
-/// The part of a refined pixel whose centre is the pixel's.
+/// Index of the part of a refined pixel whose centre is the pixel's.
 const MIDDLE: usize = ACROSS * ACROSS / 2;
 
-/// Bytes a pixel that refinement takes beside the picture, at the most.
+/// The largest number of bytes for each pixel that refinement needs beside the picture.
 pub(super) fn bytes_a_pixel(layers: &[LayerKind]) -> usize {
     let beauty = if layers.contains(&LayerKind::Beauty) { 0 } else { size_of::<Rgba>() };
     let sums = if keeps_sums(layers) { size_of::<Option<Box<Sums>>>() + bytes_of_sums(layers) } else { 0 };
@@ -35,7 +35,7 @@ fn bytes_of_sums(layers: &[LayerKind]) -> usize {
     size_of::<Sums>() + covering_objects(layers) * size_of::<f64>()
 }
 
-/// Draws a picture whose pixels are refined where neighbours differ by more than `contrast`, in tiles of a side in pixels.
+/// Draws a picture in tiles of `side` pixels. Pixels are refined where neighbours differ by more than `contrast`.
 pub(super) fn draw_refined<R: Real>(
     prepared: &Prepared<'_, R>,
     contrast: f64,
@@ -44,7 +44,7 @@ pub(super) fn draw_refined<R: Real>(
     side: usize,
     progress: FrameProgress<'_>,
 ) -> (Picture, Counts) {
-    // The first picture, half of the progress. It has a beauty, by which edges are found.
+    // The first picture, half of the progress. It includes a beauty, in which edges are found.
     let mut layers = prepared.layers.clone();
     if !layers.contains(&LayerKind::Beauty) {
         layers.push(LayerKind::Beauty);
@@ -60,7 +60,7 @@ pub(super) fn draw_refined<R: Real>(
     let own_beauty = if layers.len() > prepared.layers.len() { refined.len() * size_of::<Rgba>() } else { 0 };
     counts.bytes.insert("refinement".into(), (refined.len() + kept + own_beauty) as u64);
     counts.refined_pixels = refined.iter().filter(|&&is| is).count() as u64;
-    // Their further rays, tile by tile.
+    // The further rays of these pixels, tile by tile.
     layers.retain(|&layer| is_refined(layer));
     let [across, down] = tiles_across(prepared, side);
     let tiles = across * down;
@@ -96,7 +96,7 @@ pub(super) fn draw_refined<R: Real>(
     (picture, counts)
 }
 
-/// Whether a refined pixel has new numbers in a layer; in others it keeps those of the middle ray.
+/// Whether refinement changes a layer. Other layers keep the numbers of the middle ray.
 fn is_refined(layer: LayerKind) -> bool {
     layer == LayerKind::Beauty || layer.is_mean()
 }
@@ -119,7 +119,7 @@ struct FirstPicture<'p> {
 /// The refined pixels of a tile.
 #[derive(Default)]
 struct RefinedTile {
-    /// Their places in the picture, counted row by row.
+    /// Their indices in the picture, row by row.
     pixels: Vec<usize>,
     /// The channels of their layers, pixel by pixel.
     values: Vec<f64>,
@@ -149,7 +149,7 @@ impl FirstPicture<'_> {
         if pixels.is_empty() {
             return tile;
         }
-        // The eight rays of a pixel follow each other, so that they are cast side by side.
+        // The eight rays of a pixel follow each other, so that they can be cast side by side.
         let further = || (0..ACROSS * ACROSS).filter(|&part| part != MIDDLE);
         let points: Vec<[f64; 2]> =
             pixels.iter().flat_map(|&pixel| further().map(move |part| place.point(pixel, part, ACROSS))).collect();
@@ -193,9 +193,9 @@ fn part(a: &[f64; 4], b: &[f64; 4], contrast: f64) -> bool {
     a.iter().zip(b).any(|(a, b)| (a - b).abs() > contrast)
 }
 
-/// Whether each pixel of a picture parts from one of its eight neighbours, row by row.
+/// Whether each pixel of a picture differs from one of its eight neighbours, row by row.
 fn pixels_at_edges(beauty: &[Vec<f64>], [width, height]: [usize; 2], contrast: f64) -> Vec<bool> {
-    /// Pixels that a thread looks at, in whole rows.
+    /// Number of pixels for each task, in whole rows.
     const CHUNK: usize = 1 << 14;
     let rows = (CHUNK / width).max(1);
     let mut at_edges = vec![false; width * height];
@@ -205,7 +205,7 @@ fn pixels_at_edges(beauty: &[Vec<f64>], [width, height]: [usize; 2], contrast: f
         let bottom = (chunk * rows + rows + 1).min(height);
         let mut last = [[0.0; 4]; 2];
         let pixels = (top * width..bottom * width).map(|at| {
-            // Pixels of the background are all alike.
+            // Equal pixels, such as those of the background, are converted once.
             let color = color_at(beauty, at);
             if last[0] != color {
                 last = [color, displayed(color)];

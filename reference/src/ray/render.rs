@@ -1,4 +1,4 @@
-//! Pictures of a shot, any number of them.
+//! A shot prepared for rendering any number of frames.
 
 use super::composite::{plane_order, ray_order};
 use super::draw::{Band, Casting, Drawn, draw, largest_band, rays_of_tiles};
@@ -25,18 +25,18 @@ use drypoint_scene::picture::Picture;
 use drypoint_scene::shot::{Number, Shot};
 use std::sync::atomic::AtomicBool;
 
-/// Pixels along the side of a tile, the work of one thread at a time.
+/// Pixels along the side of a tile. A thread works on one tile at a time.
 const TILE: usize = 8;
 
-/// Rays that wait for each other in plane order, so that their states need not all be in memory. Each band has a guard band
-/// of its own, so a small one is slow.
+/// Rays that wait for each other in plane order, so that not all states need be in memory. Each band has a guard band
+/// of its own, so a small band is slow.
 const BAND: usize = 1 << 20;
 
-/// A shot that is ready to be rendered any number of times.
+/// A shot that is prepared for rendering any number of times.
 pub struct Renderer<'a> {
     ready: Ready<'a>,
     background: Backdrop<'a>,
-    /// The labels at the volume's positions, for picking; none if there are none.
+    /// The labels at the volume's positions, for picking, if there are labels.
     labels: Option<Labels<'a>>,
     counts: Counts,
     tile: usize,
@@ -44,8 +44,8 @@ pub struct Renderer<'a> {
     order: Order,
 }
 
-/// The order in which samples are visited. Without halos it shows nowhere, neither in the picture nor in the counts; with
-/// halos the order is always plane by plane.
+/// The order in which samples are visited. Without halos it changes neither the picture nor the counts. With halos the
+/// order is always plane by plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Order {
     /// Ray by ray, eight rays side by side.
@@ -65,7 +65,7 @@ impl<'a> Renderer<'a> {
     /// Prepares a shot: reconstruction, ranges, visible bricks.
     ///
     /// # Errors
-    /// A reconstruction that does not exist, sample planes that fall together, data that the shot names and that is not there.
+    /// The reconstruction does not exist, sample planes coincide, or data that the shot names are missing.
     pub fn new(shot: &Shot, inputs: Inputs<'a>) -> Result<Self, RenderError> {
         let mut counts = Counts::default();
         let ready = match shot.number {
@@ -75,12 +75,12 @@ impl<'a> Renderer<'a> {
         Ok(Self::of(ready, shot, &inputs, counts))
     }
 
-    /// Prepares the picture that reconstructions converge to: of a phantom's own formula and its derivatives in place of
-    /// the voxels, in f64, with all else as the shot has it ([COST-2]). The volume says the grid, and is where
-    /// labels and further quantities belong.
+    /// Prepares the picture to which reconstructions converge ([COST-2]). A phantom's formula and its derivatives take
+    /// the place of the voxels, in f64; all else is as in the shot. The volume gives the grid, labels and further
+    /// quantities.
     ///
     /// # Errors
-    /// See [`Renderer::new`]; objects, which are drawn from voxels.
+    /// See [`Renderer::new`]. Objects are errors too, because they are drawn from voxels.
     pub fn exact(shot: &Shot, inputs: Inputs<'a>, phantom: &'a dyn Phantom) -> Result<Self, RenderError> {
         let mut counts = Counts::default();
         if shot.combination.is_some() {
@@ -119,28 +119,29 @@ impl<'a> Renderer<'a> {
         Self { ready, background: inputs.background, labels, counts, tile: TILE, band: BAND, order }
     }
 
-    /// Sets the side of tiles, from 1 to 1024 pixels. It shows nowhere ([RAY-3]).
+    /// Sets the side of tiles, from 1 to 1024 pixels. It does not change the result ([RAY-3]).
     pub fn with_tiles(self, side: usize) -> Self {
         Self { tile: side.clamp(1, 1024), ..self }
     }
 
-    /// Sets about how many rays wait for each other with halos; at least a row of tiles does. It shows nowhere.
+    /// Sets about how many rays wait for each other with halos. At least a row of tiles does. It does not change the
+    /// result.
     pub fn with_band(self, rays: usize) -> Self {
         Self { band: rays, ..self }
     }
 
-    /// Casts each ray alone, as on a processor without wide registers, if there are no halos. It shows neither in the picture
-    /// nor in the counts.
+    /// Casts each ray alone, as on a processor without wide registers, if there are no halos. This changes neither the
+    /// picture nor the counts.
     pub fn ray_by_ray(self) -> Self {
         Self { order: Order::Rays, ..self }
     }
 
-    /// Casts the rays of each tile together, plane by plane. It shows neither in the picture nor in the counts.
+    /// Casts the rays of each tile together, plane by plane. This changes neither the picture nor the counts.
     pub fn plane_by_plane(self) -> Self {
         Self { order: Order::Planes, ..self }
     }
 
-    /// Bytes a pixel that rays at edges need beside the picture; 0 without them.
+    /// Bytes for each pixel that adaptive refinement needs beside the picture; 0 without refinement.
     pub fn bytes_of_refinement(&self) -> usize {
         fn of<R>(p: &Prepared<'_, R>) -> usize {
             p.refine_above.map_or(0, |_| bytes_a_pixel(&p.layers))
@@ -151,7 +152,7 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// n of the n×n rays of a pixel, before it is refined.
+    /// n of the n×n rays of a pixel that is not refined.
     pub fn rays_across(&self) -> usize {
         match &self.ready {
             Ready::F64(p) => p.rays_across,
@@ -159,7 +160,7 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// The number of samples of a frame, roughly, if none is skipped and no pixel is refined.
+    /// About how many samples a frame has, if none is skipped and no pixel is refined.
     pub fn samples(&self) -> f64 {
         fn of<R: Real>(p: &Prepared<'_, R>) -> f64 {
             let of_objects = p.combination.as_ref().map_or(0.0, |objects| objects.samples(&p.lattice, &p.view));
@@ -190,10 +191,11 @@ impl<'a> Renderer<'a> {
         self.order == Order::Lanes
     }
 
-    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    /// Takes the camera and the lights of another shot for the following frames. Nothing else may differ between the
+    /// shots.
     ///
     /// # Errors
-    /// Sample planes that fall together, seen from there.
+    /// Sample planes coincide as seen from the camera.
     pub fn turn(&mut self, shot: &Shot) -> Result<(), RenderError> {
         match &mut self.ready {
             Ready::F64(p) => turn(p, shot),
@@ -201,7 +203,7 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// Puts lines inside the frames that follow, or takes them out: those of the camera that is there ([HATCH-14] d).
+    /// Puts lines for the current camera inside the following frames, or removes them ([HATCH-14] d).
     pub fn merge(&mut self, lines: Option<Fragments>) {
         match &mut self.ready {
             Ready::F64(p) => p.lines = lines,
@@ -209,33 +211,32 @@ impl<'a> Renderer<'a> {
         }
     }
 
-    /// The counts of preparing, which are among those of each [`frame`](Self::frame).
+    /// The counts of the preparation, which each [`frame`](Self::frame) includes.
     pub fn prepared(&self) -> &Counts {
         &self.counts
     }
 
-    /// Renders one frame. `progress` hears the share of the picture that is done, from any thread.
+    /// Renders one frame. `progress` receives the share of the picture that is done, on any thread.
     pub fn frame(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let (picture, mut counts) = self.again(progress);
         counts.add(&self.counts);
         (picture, counts)
     }
 
-    /// Renders a further frame, with the counts of the frame alone.
+    /// Renders a further frame. Its counts do not include the preparation.
     pub fn again(&self, progress: &(dyn Fn(f64) + Sync)) -> (Picture, Counts) {
         let [stop, stopped] = [false; 2].map(AtomicBool::new);
         self.drawn(FrameProgress { hear: progress, stop: &stop, stopped: &stopped, between: [0.0, 1.0] })
     }
 
-    /// Renders a further frame, unless `stop` becomes true before all is drawn: then nothing more is drawn, and there is no
-    /// picture.
+    /// Renders a further frame. If `stop` becomes true before it is complete, drawing stops and the result is none.
     pub fn again_until(&self, progress: &(dyn Fn(f64) + Sync), stop: &AtomicBool) -> Option<(Picture, Counts)> {
         let stopped = AtomicBool::new(false);
         let drawn = self.drawn(FrameProgress { hear: progress, stop, stopped: &stopped, between: [0.0, 1.0] });
         (!stopped.into_inner()).then_some(drawn)
     }
 
-    /// Draws a frame, or as much of it as is drawn before it is stopped.
+    /// Draws a frame, or part of it if it is stopped.
     fn drawn(&self, progress: FrameProgress<'_>) -> (Picture, Counts) {
         let (picture, mut counts) = match &self.ready {
             Ready::F64(p) => with_sampler!(p.object.field, |s| self.draw(p, s, progress)),
@@ -246,12 +247,13 @@ impl<'a> Renderer<'a> {
         (picture, counts)
     }
 
-    /// Picks the first visible structure on the ray through a point of the picture, in pixels from the top left corner. The
-    /// centre of pixel (i, j) is (i + ½, j + ½).
+    /// Picks the first visible structure on the ray through a point of the picture, in pixels from the top left corner.
+    /// The centre of pixel (i, j) is (i + ½, j + ½).
     ///
-    /// It is the first sample at which the accumulated opacity reaches [`VISIBLE`](super::VISIBLE), so haze and noise in front
-    /// are passed over. If the ray stays below, it is the sample with the largest weight. The iso-surface counts as a sample
-    /// at its own depth; lines inside the picture are passed over. Returns none where nothing is seen and outside the picture.
+    /// It is the first sample at which the accumulated opacity reaches [`VISIBLE`](super::VISIBLE), so haze and noise
+    /// in front are ignored. If the ray stays below, it is the sample with the largest weight. The iso-surface and
+    /// meshes count as samples at their own depths. Lines inside the picture are ignored. Returns none if nothing is
+    /// visible, or outside the picture.
     pub fn pick(&self, point: [f64; 2]) -> Option<Picked> {
         let labels = self.labels.as_ref();
         match &self.ready {

@@ -1,4 +1,4 @@
-//! The rays of one tile, as they are handed from the picture to those that cast them.
+//! The rays of one tile, as they are passed to the functions that cast them.
 
 use super::brick_occupancy::RayIntervals;
 use super::composite::Cast;
@@ -8,7 +8,7 @@ use drypoint_scene::counts::Counts;
 pub(super) struct TileWork<'a> {
     /// Points of the picture that the rays go through, in pixels from the top left corner.
     pub(super) points: &'a [[f64; 2]],
-    /// RayIntervals of visible bricks that they can meet; none where nothing is skipped.
+    /// Boxes of visible bricks that the rays can meet; none if nothing is skipped.
     pub(super) boxes: Option<&'a mut RayIntervals>,
     pub(super) counts: &'a mut Counts,
     /// Results, appended in the order of the points.
@@ -20,8 +20,8 @@ pub(super) trait CastAll: Fn(TileWork<'_>) + Sync {}
 
 impl<F: Fn(TileWork<'_>) + Sync> CastAll for F {}
 
-/// The rays of a tile: the points that they go through, in pixels from the top left corner, and their column and row among
-/// all rays; with the boxes of visible bricks that they can meet.
+/// The rays of a tile: their points, in pixels from the top left corner, their column and row among all rays, and the
+/// boxes of visible bricks that they can meet.
 pub(crate) struct TileRays {
     pub(crate) points: Vec<[f64; 2]>,
     pub(crate) places: Vec<[usize; 2]>,

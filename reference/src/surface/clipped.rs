@@ -13,7 +13,7 @@ use drypoint_scene::volume::Mask;
 pub(crate) struct SurfaceHit {
     /// The parameter of the line.
     pub(crate) t: f64,
-    /// The plane on which the place lies, by its place in the list; none: the surface itself.
+    /// Index of the plane on which the place lies; none for the surface itself.
     pub(crate) cut: Option<usize>,
 }
 
@@ -25,8 +25,8 @@ pub(crate) struct Clipped<'c> {
 }
 
 impl RootFinder {
-    /// The first place in a closed range at which the line meets what planes leave: the surface, or a plane that cuts
-    /// the inside of it open.
+    /// The first place in a closed range at which the line meets the clipped surface: the surface, or a plane that cuts
+    /// its inside open.
     pub(crate) fn first_left<R: Real>(
         &self,
         field: &Field<'_, R>,
@@ -43,12 +43,12 @@ impl RootFinder {
         if kept.entry.is_some() && self.is_inside(field, mask, line, from, clipped.outside) {
             return Some(SurfaceHit { t: from, cut: kept.entry });
         }
-        // The search goes on to the end of the whole range: planes behind a root change no bit of it.
+        // The search covers the whole range, so that planes behind a root change no bit of it.
         let root = self.first(field, mask, line, [from, range[1]]);
         root.filter(|t| *t <= to).map(|t| SurfaceHit { t, cut: None })
     }
 
-    /// Whether any part of the surface that planes leave lies on a line in a closed range, seen from its end.
+    /// Whether any part of the clipped surface lies on a line in a closed range. The eye is at the end of the line.
     pub(crate) fn is_left<R: Real>(
         &self,
         field: &Field<'_, R>,
@@ -62,8 +62,8 @@ impl RootFinder {
         self.first(field, mask, line, kept.range).is_some() || kept.exit.is_some() && is_cut(kept.range[1])
     }
 
-    /// Whether a place on a line is inside the surface, or on it. A place outside the box is not, nor is one in a cell
-    /// that touches a masked voxel.
+    /// Whether a place on a line is inside the surface or on it. Places outside the box, and in cells that touch a
+    /// masked voxel, are not.
     fn is_inside<R: Real>(
         &self,
         field: &Field<'_, R>,

@@ -67,8 +67,8 @@ impl<'f, 'v> IsoSurface<'f, 'v> {
         Self { field, roots: RootFinder::new(field, iso, None), clip: &NO_PLANES }
     }
 
-    /// Cuts the surface by planes ([RAY-8]). What is cut away hides nothing, and where the inside is cut open, the cut
-    /// hides what is behind it. Roots and feet are those of the whole surface.
+    /// Cuts the surface by planes ([RAY-8]). Parts that are cut away hide nothing. Where the inside is cut open, the
+    /// cut hides the points behind it. Roots and feet are those of the whole surface.
     pub fn clipped(self, clip: &'f ClipPlanes) -> Self {
         Self { clip, ..self }
     }

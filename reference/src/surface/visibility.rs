@@ -14,12 +14,12 @@ impl IsoSurface<'_, '_> {
         if view.perspective {
             depth >= near && self.meets(view.eye, (point - view.eye) / depth, [near, depth])
         } else {
-            // The ray starts at the point, where rounding is smallest, and runs to the eye at infinity.
+            // The ray starts at the point, where rounding is smallest, and runs to infinity towards the eye.
             self.leaves(point, -view.forward, [0.0, f64::INFINITY])
         }
     }
 
-    /// Whether a line from the eye meets what clip planes leave of the surface.
+    /// Whether a line from the eye meets the clipped surface.
     fn meets(&self, origin: DVec3, direction: DVec3, range: [f64; 2]) -> bool {
         if self.clip().is_empty() {
             return self.first_root(origin, direction, range).is_some();
@@ -46,8 +46,8 @@ impl IsoSurface<'_, '_> {
         Clipped { clip: self.clip(), outside: self.field().reconstruction().outside }
     }
 
-    /// The side that is in front of the surface for a camera: 1 outwards, −1 inwards. It is inwards for an eye inside
-    /// the volume, on the inner side of the value, where no plane cuts.
+    /// The side that is in front of the surface for a camera: 1 outwards, −1 inwards. It is −1 if a perspective eye is
+    /// inside the volume, on the inner side of the value, and no plane cuts there.
     pub fn front(&self, view: &View) -> f64 {
         let eye = self.field().volume().grid().to_index(view.eye);
         let inside = |value: f64| match self.field().reconstruction().outside {

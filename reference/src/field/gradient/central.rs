@@ -18,13 +18,13 @@ pub(in crate::field) fn gradient<R: Real>(field: &Field<'_, R>, at: CellPosition
     in_registers(field, x, y, z, wx, wy, wz)
 }
 
-/// Compiled once for each number type, not once for each place that calls it; all that it is given fits in registers.
+/// Compiled once for each number type, not once for each caller. All arguments fit in registers.
 #[inline(never)]
 fn in_registers<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize, wx: R, wy: R, wz: R) -> Vec3<R> {
     let at = CellPosition { cell: [x, y, z], w: [wx, wy, wz] };
     match field.stencils.careful_cross(at.cell) {
         Some(cross) => interpolated(cross, at.w),
-        // Compiled for each stored type, which spares the 32 numbers a way through memory.
+        // Compiled for each stored type, so that the 32 numbers do not pass through memory.
         None => with_access!(field.volume, |a| interpolated(stencil::cross(a, at.cell), at.w)),
     }
 }
@@ -38,7 +38,7 @@ pub(super) fn at_voxel<R: Real>(voxels: impl Access, [x, y, z]: [usize; 3]) -> V
     Vec3::new(d([0, 1, 1], [2, 1, 1]), d([1, 0, 1], [1, 2, 1]), d([1, 1, 0], [1, 1, 2])) * R::HALF
 }
 
-/// Twice the differences, interpolated, and halved. Written out: through closures over arrays it takes twice as long.
+/// Twice the differences, interpolated, and halved. With closures over arrays, this function takes twice as long.
 #[inline(always)]
 pub(in crate::field) fn interpolated<R: Arithmetic>(c: Cross<R>, [wx, wy, wz]: [R; 3]) -> Vec3<R> {
     let [a, b, e, f] = [middle(c.x[0]), middle(c.x[1]), middle(c.x[2]), middle(c.x[3])];

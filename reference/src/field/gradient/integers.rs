@@ -1,7 +1,7 @@
 //! ‖g‖² by central differences at every voxel of a row of 8- or 16-bit integers.
 //!
 //! Differences of such integers are exact, beyond the border too. The bits are therefore those of [`super::central`] in
-//! any order of the sums. Only the differences are converted to numbers of the sample loop, not each voxel.
+//! any order of the sums. Only the differences are converted to floating point, not each voxel.
 
 use crate::field::{Field, GradientEstimator};
 use crate::number::lanes::widely;
@@ -41,11 +41,11 @@ impl Difference {
 }
 
 impl<R: Real> Field<'_, R> {
-    /// ‖g‖² times 4^−e of all voxels of a row, those at the border too. The bits are those of
-    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `squares` is as long as the row.
+    /// ‖g‖² times 4^−e of all voxels of a row, including those at the border. The bits are those of the squared length
+    /// of [`voxel_gradient`](crate::field::Sampler::voxel_gradient). `squares` is as long as the row.
     ///
-    /// Returns whether the row was computed: central differences of 8- and 16-bit integers, on axes of at least two
-    /// voxels.
+    /// Returns whether the row was computed. It is computed for central differences of 8- and 16-bit integers, on axes
+    /// of at least two voxels.
     pub(crate) fn integer_squares(&self, row: [usize; 2], squares: &mut [R]) -> bool {
         if self.how.gradient != GradientEstimator::Central || self.stencils.careful() {
             return false;

@@ -12,8 +12,8 @@ use super::{Field, GradientEstimator};
 use crate::number::{Real, Vec3};
 use drypoint_scene::with_access;
 
-/// The estimate at a voxel that has neighbours on all sides. It equals the interpolated one, in which the other corners
-/// have weight 0. None at the border, for numbers that are scaled as they are read, and for `analytic`.
+/// The estimate at a voxel that has neighbours on all sides. It equals the interpolated estimate, in which the other
+/// corners have weight 0. Returns none at the border, for numbers that are scaled as they are read, and for `analytic`.
 #[inline(never)]
 pub(super) fn at_voxel<R: Real>(field: &Field<'_, R>, x: usize, y: usize, z: usize) -> Option<Vec3<R>> {
     if !field.stencils.surrounds([x, y, z]) {

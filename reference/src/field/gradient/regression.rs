@@ -7,7 +7,7 @@
 //!
 //! The fit is the same in any linear coordinates. It is made in index space, where an axis of length 1 can be left out.
 //! There h, the gradient along the index axes, is a linear combination of the voxels. Its weights depend only on which
-//! of them exist: all 27, or those that a border leaves.
+//! of the 27 voxels lie in the grid.
 
 use crate::field::Field;
 use crate::field::place::CellPosition;
@@ -23,10 +23,10 @@ type Weights<R> = [[R; 27]; 4];
 /// Indices of the voxels with a nonzero weight, x fastest, and the weights, for each index axis.
 pub(super) type Taps<R> = [Vec<(usize, R)>; 3];
 
-/// The fit for each of the cases that a grid has.
+/// The fits for all cases of missing neighbours that occur on a grid.
 #[derive(Clone, Debug)]
 pub(in crate::field) struct Regression<R> {
-    /// The fits, indexed by the sides on which a voxel has neighbours: [`sides`] of x + 4 · that of y + 16 · that of z.
+    /// The fits. The index is [`sides`] of x + 4 · `sides` of y + 16 · `sides` of z.
     cases: Vec<Option<Box<Weights<R>>>>,
     /// Weights of the gradient at a voxel that has all neighbours.
     taps: Taps<R>,
@@ -66,7 +66,7 @@ impl<R: Real> Regression<R> {
         &self.taps
     }
 
-    /// The weights of the three derivatives in all cases; 0 in those that the grid does not have.
+    /// The weights of the three derivatives in all cases. Cases that the grid does not have get zeros.
     pub(in crate::field) fn weights(&self) -> Vec<f64> {
         let of_case = |case: &Option<Box<Weights<R>>>| {
             case.as_ref().map_or([R::ZERO; 81], |w| std::array::from_fn(|i| w[i / 27][i % 27]))
@@ -82,7 +82,7 @@ impl<R: Real> Regression<R> {
     pub(in crate::field) fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
         let dims = field.stencils.dims();
         let mut block = field.stencils.block::<R>(at.cell);
-        // Whole numbers have exact differences, and those of a constant are 0.
+        // Differences of integers are exact, and differences of a constant are 0.
         let first = block[1][1][1];
         block.iter_mut().flatten().flatten().for_each(|c| *c -= first);
         let [x, y, z]: [[usize; 2]; 3] =
@@ -90,7 +90,8 @@ impl<R: Real> Regression<R> {
         let inside = [x, y, z] == [[3, 3]; 3];
         let [wx, wy, wz] = at.w;
         if inside {
-            // All corners have the same weights: interpolating the voxels first costs an eighth.
+            // All corners have the same weights, so the voxels are interpolated before the fit: one fit instead of
+            // eight.
             return self.fitted([3; 3], &interpolated(&block, at.w));
         }
         let corner = |i: usize, j: usize, k: usize| {
@@ -123,7 +124,7 @@ impl<R: Real> Regression<R> {
         let block = field.stencils.block::<R>(cell);
         let first = block[k + 1][j + 1][i + 1];
         let Some([.., d]) = self.case(std::array::from_fn(|a| sides(voxel[a], dims[a]))) else { return first };
-        // The weights' sum is 1, and a constant is given back exactly.
+        // The weights' sum is 1, so a constant is reproduced exactly.
         let mut sum = R::ZERO;
         for (t, &weight) in d.iter().enumerate() {
             sum += (block[k + t / 9][j + t / 3 % 3][i + t % 3] - first) * weight;
@@ -131,9 +132,9 @@ impl<R: Real> Regression<R> {
         first + sum
     }
 
-    /// The fitted gradient of a voxel from its neighbourhood, x fastest.
+    /// The fitted gradient at a voxel from its 3³ neighbourhood, x fastest.
     fn fitted(&self, s: [usize; 3], around: &[R; 27]) -> Vec3<R> {
-        // The second corner of the one cell of an axis of length 1 lies outside and has no weight.
+        // On an axis of length 1 the cell's second corner lies outside and has no weight.
         let Some([x, y, z, _]) = self.case(s) else { return Vec3::zero() };
         let mut sum = Vec3::zero();
         for (t, &c) in around.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! ‖g‖² by central differences, Sobel's operator and the fit at every voxel of a row, eight side by side. The
+//! ‖g‖² by central differences, Sobel's operator and the regression at every voxel of a row, eight side by side. The
 //! operations are those of one voxel, so the bits are the same.
 
 use super::regression::Taps;
@@ -6,10 +6,10 @@ use crate::field::{Field, GradientEstimator};
 use crate::number::lanes::{LANES, widely};
 use crate::number::{Mat3, Real, Vec3};
 
-/// Rows that a row's gradients read: that one, and those around it, (y, z) = (−1, −1), (0, −1), … (1, 1).
+/// Number of rows that the gradients of a row read: the row and its neighbours, (y, z) = (−1, −1), (0, −1), … (1, 1).
 const ROWS: usize = 9;
 
-/// The row itself.
+/// Index of the row itself.
 const MIDDLE: usize = 4;
 
 /// The voxels that eight gradients read in each of the rows.
@@ -19,12 +19,12 @@ type Windows<R> = [[R; LANES + 2]; ROWS];
 type Lane<R> = [[R; LANES]; 3];
 
 impl<R: Real> Field<'_, R> {
-    /// ‖g‖² times 4^−e of the voxels of a row except the first and the last. The bits are those of
-    /// [`voxel_gradient`](crate::field::Sampler::voxel_gradient) times itself. `rows` is working memory, and `squares`
-    /// is as long as the row.
+    /// ‖g‖² times 4^−e of the voxels of a row except the first and the last. The bits are those of the squared length
+    /// of [`voxel_gradient`](crate::field::Sampler::voxel_gradient). `rows` is working memory, and `squares` is as long
+    /// as the row.
     ///
-    /// Returns whether the row was computed. Rows at a border, rows shorter than ten voxels, fields whose numbers are
-    /// read with care, and a kernel's own derivative are not.
+    /// Returns whether the row was computed. Rows at a border, rows shorter than ten voxels, fields with an axis of
+    /// length 1 or with scaled numbers, and the estimator `analytic` are not computed.
     pub(crate) fn squares_inside(&self, [y, z]: [usize; 2], rows: &mut Vec<R>, squares: &mut [R]) -> bool {
         let (nx, inside) = (squares.len(), squares.len().saturating_sub(2));
         if inside < LANES || !self.stencils.surrounds([1, y, z]) {
@@ -55,14 +55,14 @@ impl<R: Real> Field<'_, R> {
     }
 }
 
-/// The squared lengths of the gradients that `eight` gives for the eight voxels behind one.
+/// Writes the squared lengths of the gradients. `eight` returns the gradients of the eight voxels after a given one.
 fn in_world<R: Real>(to_world: &Mat3<R>, squares: &mut [R], eight: impl Fn(usize) -> Lane<R>) {
     let inside = squares.len() - 2;
     widely(
         #[inline(always)]
         || {
             for start in (0..inside).step_by(LANES) {
-                // The last eight once more where the row ends in fewer.
+                // If fewer than eight are left, the last eight of the row are computed again.
                 let start = start.min(inside - LANES);
                 let [x, y, z] = eight(start);
                 let out = &mut squares[start + 1..][..LANES];
@@ -75,7 +75,7 @@ fn in_world<R: Real>(to_world: &Mat3<R>, squares: &mut [R], eight: impl Fn(usize
     );
 }
 
-/// Central differences at the eight voxels behind the one at `start`.
+/// Central differences at the eight voxels after the one at `start`.
 #[inline(always)]
 fn central<R: Real>(rows: &[R], nx: usize, start: usize) -> Lane<R> {
     let run = |row: usize, from: usize| -> &[R] { &rows[row * nx + start + from..][..LANES] };
@@ -93,7 +93,8 @@ fn central<R: Real>(rows: &[R], nx: usize, start: usize) -> Lane<R> {
     lane
 }
 
-/// The gradients of an estimator that reads 3³ voxels, at the same eight; 0 where all that it reads is one number.
+/// The gradients of an estimator that reads 3³ voxels, at the eight voxels after `start`. They are 0 where all voxels
+/// are equal.
 #[inline(always)]
 fn changing<R: Real>(
     rows: &[R],
@@ -117,7 +118,7 @@ fn changing<R: Real>(
     if differs == [false; LANES] { [[R::ZERO; LANES]; 3] } else { estimate(&windows, &first) }
 }
 
-/// The fit of [REC-2], of differences from each voxel itself.
+/// The regression of [REC-2], from differences to each voxel itself.
 #[inline(always)]
 fn fitted<R: Real>(windows: &Windows<R>, first: &[R; LANES], taps: &Taps<R>) -> Lane<R> {
     let mut sums = [[R::ZERO; LANES]; 3];

@@ -1,8 +1,8 @@
 //! Central differences of the grid gradient, then trilinear interpolation ([REC-3]).
 //!
-//! The grid gradient is the central one of [REC-2] for every value of `gradient`, with its one-sided differences at the
-//! border. It is differenced by the same rule. Along an axis this turns six voxels into two numbers, at the corners of
-//! the cell, and w interpolates between them. The result has six taps, like a kernel.
+//! The grid gradient is the central one of [REC-2] for every value of `gradient`, with one-sided differences at the
+//! border. It is differenced by the same rule. Along an axis, six voxels give the two numbers at the corners of the
+//! cell, and w interpolates between them. The result has six taps, like a kernel.
 
 use crate::field::Field;
 use crate::field::place::CellPosition;
@@ -71,7 +71,7 @@ fn taps<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     }
 }
 
-/// Like [`taps`], by applying differences to differences, in whichever form each of them has.
+/// Like [`taps`], by differences of differences, each one-sided at a border.
 fn taps_at_border<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     let mut taps = Taps { value: [R::ZERO; 6], first: [R::ZERO; 6], second: [R::ZERO; 6] };
     // On an axis of length 1 the cell has one corner.
@@ -88,8 +88,8 @@ fn taps_at_border<R: Real>(cell: usize, w: R, n: usize) -> Taps<R, 6> {
     taps
 }
 
-/// The derivative at voxel i of a line of n, as voxels and their weights. It is the central difference, (−3f₀ + 4f₁ −
-/// f₂)/2 at an end, the difference of two voxels if there are two, and 0 of one.
+/// The derivative at voxel i of a line of n, as voxels and their weights. It is the central difference, or (−3f₀ + 4f₁
+/// − f₂)/2 at an end. It is the difference of two voxels if n = 2, and 0 if n = 1.
 fn difference(i: usize, n: usize) -> [(usize, f64); 3] {
     match n {
         1 => [(i, 0.0); 3],

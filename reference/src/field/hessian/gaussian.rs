@@ -1,4 +1,4 @@
-//! The grid smoothed by a Gaussian, then the derivatives of its prefiltered cubic B-spline ([REC-3]).
+//! Derivatives of the prefiltered cubic B-spline of the grid smoothed by a Gaussian ([REC-3]).
 
 use crate::field::FieldError;
 use crate::field::coefficients::Coefficients;
@@ -7,7 +7,7 @@ use crate::number::Real;
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
 
-/// The longest σ, in voxels of an axis: beyond it a Gaussian has more taps than a volume has voxels.
+/// The longest σ, in voxels of an axis. A longer Gaussian has more taps than a volume has voxels.
 const LONGEST: f64 = 1000.0;
 
 /// Weights at 0, 1, … ⌊4σ⌋ voxels along each axis, for σ = `scale` in world units.
@@ -38,9 +38,9 @@ pub(in crate::field) fn smoothed<R: Real>(stencils: &Stencils<'_>, taps: &[Vec<f
     coefficients.prefilter()
 }
 
-/// Weights at 0, 1, … ⌊4σ⌋, normalized over all taps, those to the left counted too.
+/// Weights at 0, 1, … ⌊4σ⌋, normalized over all taps on both sides.
 pub(in crate::field) fn half_taps(sigma: f64) -> Vec<f64> {
-    // At least one: σ = 0 leaves the samples as they are.
+    // σ = 0 has one tap, which leaves the samples unchanged.
     let reach = (4.0 * sigma) as usize;
     let weight = |k: usize| if k == 0 { 1.0 } else { math::exp(-0.5 * (k as f64 / sigma) * (k as f64 / sigma)) };
     let half: Vec<f64> = (0..=reach).map(weight).collect();
@@ -49,11 +49,11 @@ pub(in crate::field) fn half_taps(sigma: f64) -> Vec<f64> {
 }
 
 /// The weights of smoothed sample i of a line of n ≥ 2, and the first sample that they apply to. Taps beyond the border
-/// weight the samples that the line is continued from.
+/// add to the weights of the samples from which the line is extrapolated.
 pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize, Vec<R>) {
     let reach = half.len() - 1;
     let short = n.min(3);
-    // Where a tap falls outside, the three samples at that border are read too.
+    // If a tap falls outside, the three samples at that border are read too.
     let (mut first, mut end) = (i.saturating_sub(reach), (i + reach + 1).min(n));
     if i < reach {
         end = end.max(short);
@@ -61,7 +61,7 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     if i + reach >= n {
         first = first.min(n - short);
     }
-    // Each tap counts at its own sample, or by extrapolation at the three samples next to the border.
+    // Each tap counts at its own sample. Taps outside count by extrapolation at the three samples next to the border.
     let mut weights = vec![0.0; end - first];
     for (k, &w) in half.iter().enumerate() {
         if k > 0 && i < k {
@@ -80,8 +80,8 @@ pub(in crate::field) fn row<R: Real>(half: &[f64], i: usize, n: usize) -> (usize
     (first, weights.into_iter().map(R::from_f64).collect())
 }
 
-/// Weights of the three samples nearest to a border in the sample k steps beyond it. They extend the parabola through
-/// the three, as c₋₁ = 3c₀ − 3c₁ + c₂ applied k times does; two samples extend their line.
+/// Weights of the three samples nearest to a border in the sample k steps beyond it. The sample lies on the parabola
+/// through the three, as after applying c₋₁ = 3c₀ − 3c₁ + c₂ k times. Two samples are continued by their line.
 fn extrapolation(k: usize, n: usize) -> [f64; 3] {
     let k = k as f64;
     if n == 2 {

@@ -1,5 +1,5 @@
-//! Cubic B-splines: on prefiltered coefficients, which interpolates the voxels, or on the voxels themselves, which
-//! smooths them ([REC-1]). Twice continuously differentiable.
+//! Cubic B-splines, twice continuously differentiable ([REC-1]). On prefiltered coefficients the spline interpolates
+//! the voxels; on the voxels themselves it smooths them.
 
 use crate::field::Field;
 use crate::field::coefficients::Coefficients;
@@ -12,7 +12,7 @@ use crate::number::{Real, Sym3, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub struct Bspline<'f, R>(pub(in crate::field) &'f Coefficients<R>);
 
-/// The cubic B-spline of the voxels: x² comes out as x² + ⅓, by design.
+/// The cubic B-spline of the voxels. It smooths: x² becomes x² + ⅓.
 #[derive(Clone, Copy, Debug)]
 pub struct BsplineSmooth;
 

@@ -13,7 +13,7 @@ use crate::number::{Real, Sym3, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub struct Bspline5<'f, R>(pub(in crate::field) &'f Coefficients<R>);
 
-/// The polynomial with coefficients `c`, highest power first, over a whole number.
+/// The polynomial with coefficients `c`, highest power first, divided by `over`.
 #[inline(always)]
 fn horner<R: Real, const N: usize>(c: [f64; N], t: R, over: f64) -> R {
     let mut sum = R::from_f64(c[0]);

@@ -59,11 +59,11 @@ impl<R: Real> Interpolant<R> for Trilinear {
 }
 
 impl Trilinear {
-    /// Values that are worth computing at once.
+    /// Number of values that are worth computing at once.
     pub(in crate::field) const AT_ONCE: usize = 8;
 
-    /// The numbers at several places. It decides the stored type once for all of them: a decision for each, and the wait
-    /// for each before the next, would take most of the time.
+    /// The numbers at several places. The stored type is decided once for all of them, and the reads overlap. Deciding
+    /// and waiting for each place in turn would take most of the time.
     #[inline(always)]
     pub(in crate::field) fn values<R: Real>(
         field: &Field<'_, R>,

@@ -1,4 +1,4 @@
-//! Fields whose kernel has no lanes of its own: one position after the other, as a ray alone would ask.
+//! Fields whose kernel has no implementation in lanes: each position is evaluated on its own, as for a single ray.
 
 use super::{LANES, PlaceColumns, Places, Reader, Seconds, places, splat};
 use crate::field::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
@@ -47,7 +47,7 @@ fn of_both((g, h): (Vec3<f64>, Sym3<f64>)) -> [f64; 9] {
     [g.x, g.y, g.z, h.xx, h.xy, h.xz, h.yy, h.yz, h.zz]
 }
 
-/// Columns of what is computed for the lanes `asked`; zeros in the others.
+/// Columns of the results of `compute` for the lanes `asked`; zeros in the other lanes.
 #[inline(always)]
 fn of_each<const N: usize>(asked: u64, compute: impl Fn(usize) -> [f64; N]) -> [[f64; LANES]; N] {
     widely(
@@ -68,7 +68,7 @@ fn of_each<const N: usize>(asked: u64, compute: impl Fn(usize) -> [f64; N]) -> [
     )
 }
 
-/// Reads a field that [`fits_lanes`](Field::fits_lanes) by its kernel.
+/// Reads a field that [`fits_lanes`](Field::fits_lanes) one lane at a time.
 #[derive(Clone, Copy)]
 pub(crate) struct EachReader<'f, 'v, S> {
     simd: S,

@@ -33,7 +33,7 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         let is_sobel = self.field.how.gradient == GradientEstimator::Sobel;
         let start =
             self.offsets(Vec3::select(asked & inside, Vec3::new(cell.x - 1.0, cell.y - 1.0, cell.z - 1.0), zero));
-        // Together all eight are computed, wanted or not.
+        // All eight lanes are computed together, even those that were not asked for.
         let together = (asked & inside).to_bitmask().count_ones() > if is_sobel { FEW_SOBEL } else { FEW };
         let mut index = zero;
         let mut alone = asked.to_bitmask();
@@ -57,7 +57,8 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         self.to_world.apply(index)
     }
 
-    /// Central differences in cells around which all voxels are in the grid, from the offsets of the first ones.
+    /// Central differences in cells whose stencils lie in the grid. `start` holds the offsets of the stencils' first
+    /// voxels.
     #[inline(always)]
     fn central(&self, start: [usize; LANES], w: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
         let v = self.windows::<4>(start);
@@ -72,7 +73,7 @@ impl<S: Simd, V: Packed> LaneReader<'_, '_, S, V> {
         central::interpolated(cross, w)
     }
 
-    /// Sobel's operator there: one column of taps of all cells after the other.
+    /// Sobel's operator in cells whose stencils lie in the grid, one column of taps of all cells at a time.
     #[inline(always)]
     fn sobel(&self, start: [usize; LANES], [wx, wy, wz]: [f64x8<S>; 3]) -> Vec3<f64x8<S>> {
         let v = self.windows::<4>(start);

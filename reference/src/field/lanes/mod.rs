@@ -1,8 +1,9 @@
 //! A field at eight positions side by side, for rays that are cast in lanes.
 //!
-//! Lanes cover trilinear values, central differences and Sobel's operator of small integers, which is what scanners
-//! store. The formulas are those of one position, over lanes, so the bits are the same. Voxels are fetched lane by
-//! lane, whole rows at a time, and unpacked in lanes. Other kernels are asked for one position [after the other](each).
+//! Lanes cover trilinear values, central differences and Sobel's operator of integers of 8 or 16 bits, which is what
+//! scanners store. The formulas are those of one position, over lanes, so the bits are the same. Voxels are fetched
+//! lane by lane, whole rows at a time, and unpacked in lanes. Other kernels are evaluated for one position [after the
+//! other](each).
 
 mod each;
 mod gradient;
@@ -20,13 +21,13 @@ use fearless_simd::{Bytes, Simd, f64x4, f64x8, mask64x8, u64x4, u64x8};
 
 pub(crate) use crate::number::lanes::LANES;
 
-/// 2⁵²: the bits of a whole number below it are the low bits of the sum.
+/// 2⁵². In the sum of 2⁵² and an integer below it, the low bits are the integer.
 const TO_BITS: f64 = (1u64 << 52) as f64;
 const MANTISSA: u64 = (1 << 52) - 1;
 
-/// Stored numbers of which four fit into one word. Signed ones are read as unsigned, with their sign bit flipped.
+/// Stored numbers of which four fit into one word. Signed numbers are read as unsigned, with their sign bit flipped.
 pub(crate) trait Packed: Voxel + Into<u64> {
-    /// Bits of one.
+    /// Bits of one number.
     const BITS: u32 = 8 * size_of::<Self>() as u32;
 }
 
@@ -43,14 +44,14 @@ fn word<V: Packed, const N: usize>(row: [V; N]) -> u64 {
     word
 }
 
-/// Width of the part of a word that holds numbers, in bits. Above it are a byte that stays 0 and the bits that 2⁵² has
-/// as a double.
+/// Width of the part of a word that holds numbers, in bits. The byte above stays 0, and the highest two hold the top
+/// bits of 2⁵² as a double.
 const ROOM: u32 = 40;
 /// Index of the byte that stays 0.
 const NOTHING: u64 = 5;
 
-/// Byte selectors, for every word of a vector: from two words that also hold the bits of 2⁵², they take number i of
-/// each, plus 2⁵².
+/// Byte selectors, for every word of a vector. They take number i of each of two words, plus 2⁵², whose bits both words
+/// hold.
 const fn picks<V: Packed>(i: usize) -> [u64; LANES] {
     let bytes = V::BITS as u64 / 8;
     let mut picks = 0x0706 << 48;
@@ -152,7 +153,7 @@ impl PlaceColumns {
     }
 }
 
-/// Gradients and Hessians of one field, as [`Sampler::hessian_at`](super::Sampler::hessian_at).
+/// Gradients and Hessians of one field, like [`Sampler::hessian_at`](super::Sampler::hessian_at).
 pub(crate) type Seconds<S> = (Vec3<f64x8<S>>, Sym3<f64x8<S>>);
 
 /// Reads a field in lanes.
@@ -184,7 +185,7 @@ pub(crate) fn whole<S: Simd>(x: f64x8<S>) -> [usize; LANES] {
     whole
 }
 
-/// The places of positions, as [`Reader::places`].
+/// The places of positions. See [`Reader::places`].
 #[inline(always)]
 fn places<S: Simd>(simd: S, field: &Field<'_, f64>, p: Vec3<f64x8<S>>) -> Places<S> {
     let [x, y, z] = field.cells.last();
@@ -192,7 +193,7 @@ fn places<S: Simd>(simd: S, field: &Field<'_, f64>, p: Vec3<f64x8<S>>) -> Places
     Places { cell: Vec3::new(x.0, y.0, z.0), w: [x.1, y.1, z.1] }
 }
 
-/// The cell of a coordinate and the way into it.
+/// The cell of a coordinate, and the distance from the cell's first voxel.
 #[inline(always)]
 fn along<S: Simd>(simd: S, x: f64x8<S>, last: f64) -> (f64x8<S>, f64x8<S>) {
     let zero = f64x8::splat(simd, 0.0);
@@ -217,12 +218,12 @@ pub(crate) struct LaneReader<'f, 'v, S: Simd, V> {
     simd: S,
     field: &'f Field<'v, f64>,
     voxels: Linear<'f, V>,
-    /// The sign bit of a number; 0 where there is none. A number with this bit flipped is the unsigned number plus the value
-    /// of the bit.
+    /// The sign bit of a number; 0 for unsigned types. A signed number with this bit flipped is an unsigned number,
+    /// larger by the value of the bit.
     sign: u64,
     /// The sign bits of the numbers in the lower half of a word.
     signs: u64,
-    /// The number that 0 is raised to.
+    /// The number to which 0 is raised.
     zero: f64,
     to_world: Mat3<f64x8<S>>,
 }
@@ -278,7 +279,8 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
 }
 
 impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
-    /// Reads a field that [`fits_lanes`](Field::fits_lanes), from the bits of its voxels, and whether these have a sign.
+    /// Reads a field that [`fits_lanes`](Field::fits_lanes). `voxels` are the bits of its voxels, and `is_signed` tells
+    /// how to read them.
     #[inline(always)]
     pub(crate) fn new(simd: S, field: &'f Field<'v, f64>, voxels: &'f [V], is_signed: bool) -> Self {
         let to_world = splat(simd, &field.to_world);
@@ -288,7 +290,7 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         Self { simd, field, voxels: Linear::new(voxels, field.stencils.dims()), sign, signs, zero, to_world }
     }
 
-    /// The windows of side `N` that begin at some places in the order of voxels.
+    /// The windows of side `N` that begin at the given linear offsets.
     #[inline(always)]
     fn windows<const N: usize>(&self, [a, b, c, d, e, f, g, h]: [usize; LANES]) -> Windows<'f, V> {
         let v = &self.voxels;
@@ -320,10 +322,10 @@ impl<'f, 'v, S: Simd, V: Packed> LaneReader<'f, 'v, S, V> {
         (a - self.zero) + w * (b - a)
     }
 
-    /// The first `N` numbers in each word, all raised by the same integer: their differences are those of the numbers.
+    /// The first `N` numbers in each word, all raised by the same integer, so that their differences are unchanged.
     ///
-    /// There is no closure here or anywhere in lanes. A closure that is not inlined at once is compiled for the
-    /// baseline processor, and each vector operation in it stays a call.
+    /// Code in lanes has no closures. A closure that is not inlined at once is compiled for the baseline processor, and
+    /// each vector operation in it stays a call.
     #[inline(always)]
     fn raised<const N: usize>(&self, words: [u64; LANES]) -> [f64x8<S>; N] {
         let mut raised = [f64x8::splat(self.simd, 0.0); N];

@@ -1,9 +1,9 @@
-//! Derivatives of a field smoothed by a Gaussian, made only where they are asked for ([REC-3], [HATCH-3]).
+//! Derivatives of a field smoothed by a Gaussian, computed only in the bricks that are asked for ([REC-3], [HATCH-3]).
 //!
-//! The grid is smoothed as for the `gaussian` Hessian. Its derivatives are central differences and central differences
-//! of those, interpolated linearly. They respond less to detail finer than the grid than a spline through the smoothed
-//! samples does: at σ = 1 voxel the root sum of squares of their weights is 0.066, the spline's 0.158. With the
-//! spline's an oblique plane of bytes has principal directions at 17 % of its voxels.
+//! The grid is smoothed as for the `gaussian` Hessian. Its derivatives are first and second central differences,
+//! interpolated linearly. They respond less to detail finer than the grid than a spline through the smoothed samples.
+//! At σ = 1 voxel the root sum of squares of their weights is 0.066, that of the spline's 0.158. With the spline, an
+//! oblique plane of bytes gets principal directions at 17 % of its voxels.
 //!
 //! Smoothing is separable. Along an axis each sample is one sum over its line, whose weights include the continuation
 //! beyond the border. The samples around any cell can therefore be computed on their own, in any order.
@@ -20,8 +20,8 @@ use rows::{Row, reads, responses, rows};
 use std::sync::OnceLock;
 use sums::Sums;
 
-/// Cells along the side of a brick. Bricks of a σ beyond [`WIDE`] are larger: neighbouring bricks share more sums
-/// there, and each brick computes its own.
+/// Cells along the side of a brick. For σ beyond [`WIDE`] bricks are larger: each brick computes its own sums, and
+/// neighbours would repeat more of them.
 const BRICK: usize = 16;
 const WIDE_BRICK: usize = 32;
 const WIDE: f64 = 1.5;
@@ -30,7 +30,7 @@ const WIDE: f64 = 1.5;
 #[derive(Debug)]
 pub struct Smoothed<'f, 'v> {
     field: &'f Field<'v, f64>,
-    /// Rows of the samples of each axis, from two samples before the first on.
+    /// Weights of the smoothed samples of each axis, from two samples before the first on.
     rows: [Vec<Row>; 3],
     /// Cells along the side of a brick.
     side: usize,
@@ -41,13 +41,13 @@ pub struct Smoothed<'f, 'v> {
     responses: [Vec<[f64; 2]>; 3],
     /// Squared length of each column of D⁻ᵀ, which converts second derivatives to the world's unit.
     squares: [f64; 3],
-    /// The lowest number, as numbers are read: sums run over the differences to it.
+    /// The lowest number, as numbers are read. Sums run over the differences to it.
     base: f64,
     /// The standard deviation of one rounding, as numbers are read, in the unit of the derivatives; 0 without rounding.
     rounding: f64,
 }
 
-/// Smoothed samples of a box, x fastest: the samples that its cells read.
+/// Smoothed samples of a box, x fastest: all samples that the box's cells read.
 #[derive(Debug)]
 pub struct SmoothedBox {
     /// The first cell. The first sample lies two before it.
@@ -98,9 +98,9 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         (self.field.to_world.apply(gradient), self.field.to_world_hessian(hessian))
     }
 
-    /// Like [`derivatives`](Self::derivatives), at a voxel and faster: 19 of the 216 samples around a cell count there.
-    /// The results agree up to rounding. None where the gradient is no longer than `bound`. `region` holds the voxel's
-    /// samples; without it they are taken from the voxel's brick.
+    /// Like [`derivatives`](Self::derivatives), but at a voxel and faster: only 19 of the 216 samples around a cell
+    /// count there. The results agree up to rounding. Returns none if the gradient is no longer than `bound`. `region`
+    /// holds the voxel's samples. Without a region they are taken from the voxel's brick.
     #[inline]
     pub fn at_voxel(
         &self,
@@ -115,7 +115,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         let first = window[2 * (1 + y + z)];
         let d = |i: usize, j: usize, k: usize| window[i + j * y + k * z] - first;
         let gradient = self.field.to_world.apply(slopes(d));
-        // Around scans there is much of nothing.
+        // Scans are mostly empty around the object, so the Hessian is left out there.
         (gradient.length() > bound).then(|| (gradient, self.field.to_world_hessian(bends(d))))
     }
 
@@ -149,7 +149,7 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         if q == 0.0 { 0.0 } else { q * self.response(cell) }
     }
 
-    /// Bytes of the bricks that were made.
+    /// Bytes of the bricks that were computed.
     pub fn bytes(&self) -> u64 {
         self.bricks.iter().filter_map(OnceLock::get).map(|brick| size_of_val(&*brick.data) as u64).sum()
     }
@@ -168,8 +168,8 @@ impl<'f, 'v> Smoothed<'f, 'v> {
         along[0].max(along[1]).max(along[2])
     }
 
-    /// The samples that some cells read, or as many of them as there are, computed on their own and not kept. Sums run
-    /// along z, then y, then x, each over all samples that one stored number enters, in their order.
+    /// The samples that `cells` cells from `first` on read, up to the end of the grid. They are computed anew and not
+    /// kept. Sums run along z, then y, then x. Each runs over all samples with a weight, in their order.
     pub fn region(&self, first: [usize; 3], cells: [usize; 3]) -> SmoothedBox {
         let of_axis = |a: usize| {
             let rows = &self.rows[a][first[a]..];

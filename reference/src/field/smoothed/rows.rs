@@ -1,14 +1,15 @@
-//! The weights that stored numbers have in the smoothed samples of a line, its continuation included.
+//! The weights of stored numbers in the smoothed samples of a line and in its continuation.
 
 use crate::field::hessian::gaussian;
 use crate::field::interpolated::{TAPS, taps};
 use crate::field::stencil::beyond;
 use crate::field::tensor;
 
-/// Samples before the first of a cell that its second derivatives read.
+/// Number of samples before a cell's first one that second derivatives read.
 const PAD: usize = 2;
 
-/// The weights of one smoothed sample: the first stored one that has one, and its weight and those of the ones after it.
+/// The weights of one smoothed sample: the index of the first stored number with a weight, and the weights from there
+/// on.
 pub(super) type Row = (usize, Vec<f64>);
 
 /// The samples that rows read: the first, and the one after the last.
@@ -17,8 +18,8 @@ pub(super) fn reads(rows: &[Row]) -> [usize; 2] {
     [first, rows.iter().map(|(first, weights)| first + weights.len()).max().unwrap_or(first)]
 }
 
-/// The rows of a line of n samples, smoothed with half taps, and the rows beyond its ends. These continue three rows
-/// each, as numbers are continued ([REC-1]).
+/// The rows of a line of n samples, smoothed with half taps, and the rows beyond its ends. Each row beyond an end is
+/// continued from the nearest three, like numbers ([REC-1]).
 pub(super) fn rows(n: usize, half: &[f64]) -> Vec<Row> {
     let padded = n.max(2) + 2 * PAD;
     let mut rows = vec![(0, Vec::new()); padded];
@@ -55,8 +56,8 @@ fn shortened(first: usize, weights: &[f64]) -> Row {
     (first + from, weights[from..end].to_vec())
 }
 
-/// Root sums of squares of the weights that stored numbers have at each of the n voxels of a line: in the smoothed
-/// value, and in the second derivative.
+/// Root sums of squares of the weights of stored numbers at each of the n voxels of a line: in the smoothed value, and
+/// in the second derivative.
 pub(super) fn responses(rows: &[Row], n: usize) -> Vec<[f64; 2]> {
     let tensor::Taps { value, second, .. } = taps(0.0);
     let mut sum = Vec::new();

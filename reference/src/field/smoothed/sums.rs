@@ -3,7 +3,7 @@
 use super::rows::Row;
 use crate::number::lanes::widely;
 
-/// Sums that are had side by side.
+/// Number of sums that are computed side by side.
 const SUMS: usize = 16;
 
 /// The sums of a region.
@@ -11,13 +11,13 @@ pub(super) struct Sums<'r> {
     /// The rows of each axis.
     pub(super) axes: [&'r [Row]; 3],
     pub(super) sides: [usize; 3],
-    /// The stored numbers that rows read along each axis, from one up to another, and how many.
+    /// The stored numbers that rows read along each axis, as a half-open range, and their count in `lines`.
     pub(super) read: [[usize; 2]; 3],
     pub(super) lines: [usize; 3],
 }
 
 impl Sums<'_> {
-    /// Sums along z at every stored x and y: a plane for each. None where all numbers are 0.
+    /// Sums along z at every stored x and y, one plane for each row of z. Returns none if all numbers are 0.
     pub(super) fn along_z(&self, read: impl Fn([usize; 3], &mut [f64])) -> Option<Vec<f64>> {
         let [nx, ny, nz] = self.lines;
         let [x, y, z] = self.read.map(|[from, _]| from);
@@ -28,7 +28,7 @@ impl Sums<'_> {
             for (k, line) in lines.chunks_mut(nx).enumerate() {
                 read([x, y + j, z + k], line);
             }
-            // Around scans there is much of nothing.
+            // Scans are mostly empty around the object.
             if lines.iter().all(|c| *c == 0.0) {
                 continue;
             }
@@ -46,7 +46,7 @@ impl Sums<'_> {
         (!is_empty).then_some(sums)
     }
 
-    /// Sums of planes along y, and of what that gives along x, turned so that sums lie side by side.
+    /// Sums each plane along y, then along x. Lines are transposed between, so that sums lie side by side.
     pub(super) fn across(&self, along_z: &[f64], data: &mut [f64]) {
         let [nx, ny, _] = self.lines;
         let [sx, sy, _] = self.sides;
@@ -84,7 +84,7 @@ fn weighted(sums: &mut [f64], lines: &[f64], stride: usize, weights: &[f64]) {
         }
         return;
     }
-    // The last ones are had together too, some of them a second time.
+    // The last sums are computed together too, some of them a second time.
     for from in (0..n - SUMS).step_by(SUMS).chain([n - SUMS]) {
         let mut sum = [0.0; SUMS];
         for (k, &w) in weights.iter().enumerate() {

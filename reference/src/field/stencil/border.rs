@@ -5,7 +5,7 @@ use crate::number::Real;
 use drypoint_scene::volume::Access;
 use drypoint_scene::with_access;
 
-/// A sample beyond the border from the three (two, one) nearest inside: c₋₁ = 3c₀ − 3c₁ + c₂, 2c₀ − c₁, c₀ ([REC-1]).
+/// Continues a line by one sample from the nearest three, two or one: c₋₁ = 3c₀ − 3c₁ + c₂, 2c₀ − c₁, c₀ ([REC-1]).
 #[inline(always)]
 pub(in crate::field) fn beyond<R: Real>(samples: usize, c0: R, c1: R, c2: R) -> R {
     match samples {
@@ -45,7 +45,7 @@ impl Stencils<'_> {
         } else {
             self.clamped::<R, 4>(cell.map(|i| i as isize - 1))
         };
-        // Continued lines along x, y, z in this order: each axis reads what the ones before it made.
+        // Lines are continued along x, y, z in this order. Each axis reads the results of the previous axes.
         let [nx, ny, nz] = dims;
         for line in b.iter_mut().flatten() {
             *line = continued(*line, cell[0], nx);
@@ -67,7 +67,7 @@ impl Stencils<'_> {
         b
     }
 
-    /// The voxels of a block that are in the grid, in their places; the other entries hold anything. Axes have at least
+    /// The voxels of a block that are in the grid, in their places. The other entries are arbitrary. Axes have at least
     /// four voxels.
     fn pushed_inside<R: Real>(&self, cell: [usize; 3]) -> VoxelBlock<R> {
         let dims = self.dims();

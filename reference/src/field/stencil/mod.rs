@@ -1,7 +1,7 @@
 //! The voxels around a cell as numbers of the sample loop.
 //!
-//! A stencil decides the stored type once, reads all its voxels and hands them on in an array. The code of a sample
-//! then exists once for each number type and kernel, and not for each of the ten stored types too.
+//! A stencil decides the stored type once and reads all its voxels into an array. So the code of a sample exists once
+//! for each number type and kernel, and not also for each of the ten stored types.
 
 mod border;
 
@@ -20,12 +20,12 @@ use std::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stencils<'v> {
     volume: &'v Volume,
-    /// Number of cells on each axis whose four voxels, from the one before the cell on, all lie in the grid. None where
-    /// every stencil has to be read with care.
+    /// Number of cells on each axis whose four voxels, from the one before the cell on, all lie in the grid. 0 if every
+    /// stencil has to be read with care.
     inner: [usize; 3],
     /// Whether an axis has length 1 or numbers are scaled as they are read.
     careful: bool,
-    /// Stored numbers are read times this power of two; 1 unless they come near the ends of the number type.
+    /// Stored numbers are read times this power of two. It is 1 unless they come near the ends of the number type.
     scale: f64,
 }
 
@@ -45,14 +45,14 @@ const RUN: usize = 8;
 /// The corners of a cell: pairs along x at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1).
 pub(super) type Corners<R> = [[R; 2]; 4];
 
-/// The corners of a cell that lies in the grid.
+/// The corners of a cell of a grid without axes of length 1.
 #[inline(always)]
 pub(super) fn corners<R: Real>(access: impl Access, [x, y, z]: [usize; 3]) -> Corners<R> {
     let a = access.window::<2>(x, y, z);
     [row(a, 0, 0, 0), row(a, 0, 1, 0), row(a, 0, 0, 1), row(a, 0, 1, 1)]
 }
 
-/// The voxels of central differences of a cell for which all lie in the grid.
+/// The voxels of central differences of a cell whose stencil lies in the grid.
 #[inline(always)]
 pub(super) fn cross<R: Real>(access: impl Access, [x, y, z]: [usize; 3]) -> Cross<R> {
     let a = access.window::<4>(x - 1, y - 1, z - 1);
@@ -76,7 +76,7 @@ fn row<R: Real, const N: usize>(access: impl Access, x: usize, y: usize, z: usiz
 /// The 4³ voxels around a cell, [z][y][x].
 pub(super) type VoxelBlock<R> = [[[R; 4]; 4]; 4];
 
-/// The rows of a part of the volume.
+/// The rows of a window of the volume.
 struct VoxelRows<S, A, R> {
     simd: S,
     window: A,
@@ -96,7 +96,7 @@ impl<S: Simd, A: Access, R: Real> Rows<R::Four<S>> for VoxelRows<S, A, R> {
 }
 
 impl<'v> Stencils<'v> {
-    /// `R` is the number type that will be read.
+    /// Prepares a volume for reading as numbers of the type `R`.
     pub(super) fn new<R: Real>(volume: &'v Volume) -> Self {
         let dims = volume.dims();
         let scale = math::scale_by_power_of_two(1.0, -exponent::<R>(volume));
@@ -104,7 +104,7 @@ impl<'v> Stencils<'v> {
         Self { volume, inner: if careful { [0; 3] } else { dims.map(|n| n.max(3) - 3) }, careful, scale }
     }
 
-    /// A power of two; the numbers read are the stored ones times it.
+    /// The power of two by which stored numbers are multiplied as they are read.
     pub(super) fn scale(&self) -> f64 {
         self.scale
     }
@@ -133,7 +133,7 @@ impl<'v> Stencils<'v> {
     pub(super) fn read_run<R: Real>(&self, [start, y, z]: [usize; 3], out: &mut [R]) {
         let scale = self.scale;
         with_access!(self.volume, |a| {
-            // Whole rows at once: of a single voxel the address takes longer than the number.
+            // Reads runs of a row at once: the address of a single voxel takes longer than the voxel.
             let (chunks, rest) = out.as_chunks_mut::<RUN>();
             let read = chunks.len() * RUN;
             for (i, chunk) in chunks.iter_mut().enumerate() {
@@ -148,7 +148,7 @@ impl<'v> Stencils<'v> {
         });
     }
 
-    /// The last cell on each axis around which four voxels are in the grid; the first is 1.
+    /// The last cell on each axis around which four voxels are in the grid. The first such cell is 1.
     pub(super) fn inner(&self) -> [usize; 3] {
         self.inner
     }
@@ -160,33 +160,33 @@ impl<'v> Stencils<'v> {
         inside(0) && inside(1) && inside(2)
     }
 
-    /// Whether a voxel's 26 neighbours are in the grid and can simply be read.
+    /// Whether a voxel's 26 neighbours are in the grid and can be read directly.
     #[inline(always)]
     pub(super) fn surrounds(&self, voxel: [usize; 3]) -> bool {
         let dims = self.dims();
         !self.careful && (0..3).all(|a| voxel[a].wrapping_sub(1) < dims[a].saturating_sub(2))
     }
 
-    /// Whether the two voxels to each side of a voxel are in the grid and can simply be read.
+    /// Whether the two voxels to each side of a voxel are in the grid and can be read directly.
     #[inline(always)]
     pub(super) fn surrounds_twice(&self, voxel: [usize; 3]) -> bool {
         let dims = self.dims();
         !self.careful && (0..3).all(|a| voxel[a] >= 2 && voxel[a] + 2 < dims[a])
     }
 
-    /// Whether no stencil can simply be read: on axes of length 1 and where numbers are scaled.
+    /// Whether no stencil can be read directly, because an axis has length 1 or numbers are scaled.
     #[inline(always)]
     pub(super) fn careful(&self) -> bool {
         self.careful
     }
 
-    /// The corners of a cell where they cannot simply be read: on axes of length 1 and where numbers are scaled.
+    /// The corners of a cell if they cannot be read directly: an axis has length 1, or numbers are scaled.
     #[inline(always)]
     pub(super) fn careful_corners<R: Real>(&self, cell: [usize; 3]) -> Option<Corners<R>> {
         if self.careful { Some(self.read_corners(cell[0], cell[1], cell[2])) } else { None }
     }
 
-    /// The voxels of central differences where some lie beyond the border or cannot simply be read.
+    /// The voxels of central differences if some lie beyond the border or cannot be read directly.
     #[inline(always)]
     pub(super) fn careful_cross<R: Real>(&self, cell: [usize; 3]) -> Option<Cross<R>> {
         if self.inside(cell) { None } else { Some(self.read_cross(cell)) }
@@ -271,9 +271,9 @@ impl<'v> Stencils<'v> {
         block
     }
 
-    /// Hands over the numbers from `before` voxels before the cell `first` on, `side` along each axis, with their index
-    /// among them. Beyond the border they are continued; beyond the reach of the last cell the nearest number is
-    /// repeated.
+    /// Calls `take` with the index and the number of `side` numbers along each axis, from `before` voxels before the
+    /// cell `first` on. Numbers beyond the border are continued. Beyond the reach of the last cell the nearest number
+    /// is repeated.
     pub(super) fn around<R: Real>(
         &self,
         first: [usize; 3],
@@ -283,7 +283,7 @@ impl<'v> Stencils<'v> {
     ) {
         let dims = self.dims();
         let start = first.map(|i| i as isize - before as isize);
-        // A number beyond the border is in the block of the nearest cell.
+        // A number beyond the border is taken from the block of the nearest cell.
         let cell = |a: usize, i: isize| i.clamp(0, dims[a].max(2) as isize - 2) as usize;
         let beyond = |a: usize, i: isize| i < 0 || i >= dims[a] as isize;
         let scale = self.scale;
@@ -309,8 +309,8 @@ fn number<R: Real, V: Voxel>(voxel: V, scale: f64) -> R {
     if scale == 1.0 { R::from_voxel(voxel) } else { R::from_f64(voxel.to_f64() * scale) }
 }
 
-/// The exponent taken out of stored numbers so that their sums and differences neither overflow nor become subnormal.
-/// The exponent is 0 unless numbers come near the ends of the number type, which only floating-point voxels can.
+/// The exponent that is removed from stored numbers so that their sums and differences neither overflow nor become
+/// subnormal. It is 0 unless numbers come near the ends of the number type. Only floating-point voxels can.
 fn exponent<R: Real>(volume: &Volume) -> i32 {
     let voxels = volume.voxels();
     let far = match voxels.voxel_type() {

@@ -1,4 +1,4 @@
-//! One ray of a picture with its bound.
+//! One ray of a picture, with bounds of its errors.
 
 use super::moved_ray::{MovedRay, with_errors_of};
 use super::positions::{Answer, RayOrigin};
@@ -14,11 +14,11 @@ use crate::ray::sample::{Evaluator, Previous, Sample, need};
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 
-/// A ray that was followed.
+/// The result of a ray.
 pub(super) struct Traced {
     /// Premultiplied colour in the blend space, and opacity, without the background.
     pub(super) front: Accumulator<Bounded>,
-    /// The first decision that is open and shows; none: all are made.
+    /// The first decision that errors leave open and that shows in the result, if there is one.
     pub(super) undecided: Option<Decision>,
 }
 
@@ -29,7 +29,7 @@ struct Shown {
     alpha: Bounded,
 }
 
-/// Follows the ray through a point of the picture, in pixels from the top left corner.
+/// Casts the ray through a point of the picture, in pixels from the top left corner.
 #[inline]
 pub(super) fn trace(
     prepared: &Prepared<'_, Bounded>,
@@ -70,7 +70,7 @@ pub(super) fn trace(
     tracer.traced
 }
 
-/// A ray on its way.
+/// The state of a ray.
 struct Tracer<'p, 'v> {
     prepared: &'p Prepared<'v, Bounded>,
     evaluator: Evaluator<'p, 'v, Bounded, Field<'v, Bounded>>,
@@ -80,7 +80,7 @@ struct Tracer<'p, 'v> {
 }
 
 impl Tracer<'_, '_> {
-    /// The place at which the ray ends on the iso-surface; none: nowhere.
+    /// The place at which the ray ends on the iso-surface, if there is one.
     #[inline]
     fn hit(&mut self, errors: &SurfaceErrors) -> Option<BoundedHit> {
         let ray = &self.evaluator.ray;
@@ -100,10 +100,11 @@ impl Tracer<'_, '_> {
         let (object, ray) = (&self.prepared.object, self.evaluator.ray);
         let [first, last] = ray.candidates(object.ends);
         let [from, to] = ray.left_by(&object.clip.planes, object.ends, ray.inside(object.ends));
-        // The sample that stands for the way up to the surface, and the next one, which may in f32.
+        // `last_of_all` stands for the way up to the surface. In f32 the next sample may do so.
         let last_of_all = hit.map_or(i64::MAX - 1, |hit| ray.last_before(hit.t));
         let [last, to] = [last.min(last_of_all + 1), to.min(last_of_all)];
-        // Whether the sample before hangs on a clip plane: then this one may be the first behind the cut.
+        // Whether errors leave open which side of a clip plane the previous sample is on. If so, this sample may be the
+        // first behind the cut.
         let mut after_cut = false;
         for k in first..=last {
             let (inside, cut) = (ray.is_inside(k, object.ends), ray.is_cut(k, &object.clip.planes));
@@ -135,17 +136,18 @@ impl Tracer<'_, '_> {
         true
     }
 
-    /// Δ/Δ₀ of the last sample before the surface, which stands for the way from where its own share begins to there.
+    /// Δ/Δ₀ of the last sample before the surface. The sample stands for the way from the beginning of its own share to
+    /// the surface.
     fn share(&self, k: i64, hit: BoundedHit) -> Bounded {
         let (ray, reference) = (&self.evaluator.ray, self.prepared.object.reference_length);
         let step = ray.depth_step.value();
         let share = hit.t / step - k as f64;
-        // The quotient in f32 is that of numbers of the depth's size.
+        // The rounding of the quotient in f32 is relative to the depth.
         let error = hit.error / step + 4.0 * f64::from(f32::EPSILON) * (hit.t / step).abs();
         Bounded::new(share * ray.step / reference, error * ray.step / reference)
     }
 
-    /// Lays the iso-surface behind the samples.
+    /// Composites the iso-surface behind the samples.
     #[inline]
     fn surface(&mut self, hit: BoundedHit) {
         let Some(surface) = &self.prepared.surface else { return };
@@ -163,13 +165,13 @@ impl Tracer<'_, '_> {
         }
     }
 
-    /// A linear colour as it is composited ([VAL-3]).
+    /// Converts a linear colour to the blend space ([VAL-3]).
     fn in_blend_space(&self, rgb: [Bounded; 3]) -> [Bounded; 3] {
         let encoded = |c| Bounded::monotone([c], |[c]| color::linear_to_srgb(c));
         if self.prepared.encode { rgb.map(encoded) } else { rgb }
     }
 
-    /// Whether the ray goes on. Where it ends opaque, samples behind change no value, but A need not be 1 in f32.
+    /// Whether the ray goes on. Behind an opaque end, samples change no value, but A need not be 1 in f32.
     fn is_open(&mut self) -> bool {
         let (a, stop_at) = (self.traced.front.opacity, self.prepared.stop_at.value());
         if stop_at >= 1.0 {
@@ -182,13 +184,14 @@ impl Tracer<'_, '_> {
         a.value() < stop_at
     }
 
-    /// A sample on all ways that are open to it, so many reference lengths long; none where it is clear on all.
+    /// A sample, `steps` reference lengths long, on all ways that open comparisons leave. None if it is transparent on
+    /// all ways.
     #[inline]
     fn shown(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
         self.merged(|tracer| tracer.shaded(k, steps))
     }
 
-    /// The sample as it is shown on all ways. Decisions at which they part are marked.
+    /// The union of a sample on all ways. Marks the decisions at which ways differ visibly.
     #[inline]
     fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
         let Ways { by_value, others, too_many } = ways::follow(|| shown(self));
@@ -209,7 +212,7 @@ impl Tracer<'_, '_> {
     #[inline]
     fn shaded(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
         let (object, counts) = (&self.prepared.object, &mut Counts::default());
-        // The normal before would be that of one way.
+        // The previous normal would be that of a single way.
         self.evaluator.previous = Previous::None;
         let at = self.evaluator.sampler.place(self.evaluator.ray.position(k));
         if object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
@@ -227,7 +230,8 @@ impl Tracer<'_, '_> {
         })
     }
 
-    /// Whether two ways part: the formula jumps between them, by more than the bound that the ray has anyway.
+    /// Whether the results of two ways differ visibly: the formula jumps between them by more than the bound that the
+    /// ray already has.
     fn parts(&self, a: Option<Shown>, b: Option<Shown>) -> bool {
         let of = |shown: Option<Shown>| shown.map_or(Bounded::ZERO, |shown| shown.alpha);
         let apart = |a: Bounded, b: Bounded| {
@@ -244,7 +248,7 @@ impl Tracer<'_, '_> {
         self.shows(jump)
     }
 
-    /// Whether a share of what is seen here shows beyond the ray's bound.
+    /// Whether a change by this share at the sample exceeds the ray's bound.
     fn shows(&self, share: f64) -> bool {
         let Accumulator { rgb, opacity } = &self.traced.front;
         let through = 1.0 - opacity.ends()[0];
@@ -257,7 +261,7 @@ impl Tracer<'_, '_> {
     }
 }
 
-/// The sample by its values, with a bound that holds on another way too.
+/// The values of a sample, with a bound that also covers another way.
 fn union(sample: Option<Shown>, other: Option<Shown>) -> Option<Shown> {
     let joined = |a: Bounded, b: Bounded| {
         let away = (a.value() - b.value()).abs() + b.error();

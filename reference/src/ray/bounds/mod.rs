@@ -1,10 +1,10 @@
 //! Bounds of the errors of an f32 renderer, pixel by pixel ([GPU-2]).
 //!
-//! The picture is computed as ever, to the same bits, but on numbers that know their errors ([`Bounded`]). Where a
+//! The picture has the same bits as ever, but is computed on numbers that carry their errors ([`Bounded`]). If a
 //! [`Decision`] is open and shows, the pixel is undecided, and no renderer is held to its bound there.
 //!
-//! Functions here that evaluate samples are `#[inline]`: the code of samples for [`Bounded`] is then compiled in the crates
-//! that ask for bounds, and not in this one, where no picture needs it.
+//! Functions here that evaluate samples are `#[inline]`. The code of samples for [`Bounded`] is then compiled in the
+//! crates that ask for bounds, and not in this one, whose pictures do not need it.
 
 mod cast;
 mod moved_ray;
@@ -36,19 +36,19 @@ use surface::SurfaceErrors;
 pub struct Bounds {
     /// The reference's picture.
     pub values: Picture,
-    /// The largest distance of an f32 renderer's picture, for each number of [`values`](Self::values).
+    /// The largest distance of an f32 renderer's picture from each number of [`values`](Self::values).
     pub errors: Picture,
-    /// The decision that is open, row by row from the top; none where the pixel is held to its bound.
+    /// The open decision of each pixel, row by row from the top; none if the pixel is held to its bound.
     pub undecided: Vec<Option<Decision>>,
 }
 
-/// Pictures without bounds.
+/// Errors of bounds.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BoundsError {
     /// The picture cannot be made.
     #[error(transparent)]
     Render(#[from] RenderError),
-    /// A part of the shot has no analysis of its errors.
+    /// Bounds for a part of the shot are not known.
     #[error("{what}: no bound of f32 errors is known for it yet")]
     Unknown {
         /// The part.
@@ -63,11 +63,11 @@ struct BoundedPixel {
 }
 
 impl Renderer<'_> {
-    /// The picture of a shot with the bounds of an f32 renderer whose rays begin at `origin`.
+    /// Renders a shot with bounds of the errors of an f32 renderer whose rays begin at `origin`.
     ///
     /// # Errors
-    /// See [`Renderer::new`]. Halos, further layers, functions that are read from a table, and rays that are added at edges have
-    /// no bounds.
+    /// See [`Renderer::new`]. There are no bounds for halos, further layers, functions that are read from a table, and
+    /// rays that are added at edges.
     #[inline]
     pub fn bounds(shot: &Shot, inputs: Inputs<'_>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let mut prepared: Prepared<'_, Bounded> = prepare(shot, &inputs, &mut Counts::default())?;
@@ -87,7 +87,7 @@ impl Renderer<'_> {
         if let Some((_, what)) = unknown.into_iter().find(|(is_there, _)| *is_there) {
             return Err(BoundsError::Unknown { what });
         }
-        // What cannot be seen can be looked at by an f32 renderer.
+        // Nothing is skipped, because an f32 renderer may evaluate samples that show nothing.
         (prepared.skip, prepared.cells) = (None, None);
         Ok(draw(&prepared, inputs, origin))
     }
@@ -138,7 +138,7 @@ fn draw_pixel(
     BoundedPixel { rgba: sum.map(|sum| sum / Bounded::from_index(n * n)), undecided }
 }
 
-/// A ray's colour over the background ([IO-6]), decoded where colours are composited encoded ([VAL-3]).
+/// A ray's colour over the background ([IO-6]), decoded if compositing is encoded ([VAL-3]).
 fn over(front: Accumulator<Bounded>, behind: Rgba, encode: bool) -> [Bounded; 4] {
     let add = |mut front: Accumulator<Bounded>, behind: Rgba| {
         front.over_premultiplied(behind.map(Bounded::from_f64));
@@ -154,8 +154,8 @@ fn over(front: Accumulator<Bounded>, behind: Rgba, encode: bool) -> [Bounded; 4]
     if a.value() == 0.0 {
         return [r, g, b, a];
     }
-    // Decoded c of a straight colour, times a: as a straight colour is at most 1, the error of a share below its own
-    // bound is that of the share.
+    // The decoded straight colour, times a. A straight colour is at most 1, so where a is smaller than its own bound,
+    // the error is that of a.
     let decoded = |c: Bounded| Bounded::monotone([c / a], |[c]| color::srgb_to_linear(c)) * a;
     [decoded(r), decoded(g), decoded(b), a]
 }

@@ -1,4 +1,4 @@
-//! Rays as shaders compute them: for each pixel, in f32, from a plane in the middle of the volume.
+//! Rays as shaders compute them: for each pixel, in f32, starting from a plane in the middle of the volume.
 
 use crate::number::{Arithmetic, Bounded, Real, Vec3};
 use drypoint_scene::glam::DVec3;
@@ -6,7 +6,7 @@ use drypoint_scene::shot::{Lattice, StepAlong};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
-/// A ray whose numbers carry the errors of that computation.
+/// A ray whose numbers carry the errors of the computation in shaders.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovedRay {
     /// Index position at the plane in the middle.
@@ -73,7 +73,7 @@ impl MovedRay {
     }
 }
 
-/// Numbers with the errors of others.
+/// The numbers of `v` with the errors of `other`.
 pub(super) fn with_errors_of(v: Vec3<Bounded>, other: Vec3<Bounded>) -> Vec3<Bounded> {
     let with = |a: Bounded, b: Bounded| Bounded::new(a.value(), b.error());
     Vec3::new(with(v.x, other.x), with(v.y, other.y), with(v.z, other.z))

@@ -1,28 +1,28 @@
-//! The positions of samples in f32, and what they decide.
+//! Errors of the positions of samples in f32, and the decisions that depend on them.
 
 use super::moved_ray::MovedRay;
 use crate::number::{Bounded, Vec3};
 use crate::ray::lattice::IndexRay;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 
-/// Half a unit in the last place of 1, with a little for products of errors.
+/// Half a unit in the last place of 1, slightly increased to cover products of errors.
 const ROUNDING: f64 = 0.5 * f32::EPSILON as f64 * (1.0 + f32::EPSILON as f64);
 
-/// Voxels beyond the box in which samples are looked at: errors of positions are far smaller.
+/// Margin about the box in which samples are considered, in voxels. Errors of positions are far smaller.
 const BEYOND: f64 = 1.0 / 256.0;
 
-/// How an f32 renderer comes to its rays.
+/// The point from which an f32 renderer computes the positions on a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayOrigin {
-    /// From the eye, as `sampling.number = "f32"` does it: origin, direction and step are computed in f64 and rounded once.
-    /// Far eyes cost digits.
+    /// The eye. `sampling.number = "f32"` computes origin, direction and step in f64 and rounds each once. A distant
+    /// eye costs digits.
     Eye,
-    /// From the plane through the middle of the volume, for each pixel in f32, as shaders do it. All numbers then are of the
-    /// volume's size.
+    /// The plane through the middle of the volume. Shaders compute each pixel in f32 from there, so that all numbers
+    /// are of the volume's size.
     Middle,
 }
 
-/// An answer that errors may leave open.
+/// An answer to a question that errors may leave open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
     Yes,
@@ -31,12 +31,12 @@ pub(super) enum Answer {
 }
 
 impl IndexRay<Bounded> {
-    /// The ray with a bound of the errors of its positions, for all samples in or near the box [lo, hi]: of one that comes
-    /// from the middle those of `moved`.
+    /// The ray with a bound of the errors of its positions, for all samples in or near the box [lo, hi]. With `moved`,
+    /// these are the errors of `moved`.
     ///
-    /// From the eye a position is o + a·t with t = (k + ½)Δ. o, a and Δ are rounded once, two products and a sum are rounded:
-    /// u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. Errors are convex in the depth, so the larger one at the
-    /// ends of the box holds for the whole ray.
+    /// From the eye a position is o + a·t with t = (k + ½)Δ. o, a and Δ are rounded once, and so are two products and a
+    /// sum: u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. Errors are convex in the depth, so the larger
+    /// one at the ends of the box holds for the whole ray.
     pub(super) fn with_errors(mut self, ends: [Vec3<Bounded>; 2], moved: Option<&MovedRay>) -> Self {
         let Some(depths) = self.near_box(ends) else { return self };
         let [o, a] = [self.origin, self.along].map(Vec3::to_glam);
@@ -91,7 +91,7 @@ impl IndexRay<Bounded> {
         }
     }
 
-    /// Whether errors leave open through which plane the ray comes out of what is cut away, or which side of it is seen.
+    /// Whether errors leave open which plane ends the cut part of the ray, or which side of the plane is seen.
     pub(super) fn cut_is_open(&self, clip: &ClipPlanes, v: Vec3<Bounded>) -> bool {
         let errors = self.errors();
         let entry = |plane: &ClipPlane| {

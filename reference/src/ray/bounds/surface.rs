@@ -9,11 +9,12 @@ use crate::surface::RootFinder;
 /// Half a unit in the last place of 1.
 const ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
 
-/// Roundings of the cubic of a cell, relative to the largest number in it: one of each voxel and of its difference to iso, five
-/// of the interpolation along each axis, and those of the polar forms and of de Casteljau's scheme.
+/// Roundings of the cubic of a cell, relative to the largest number in it. There is one of each voxel and one of its
+/// difference to iso, five of the interpolation along each axis, and those of the polar forms and of de Casteljau's
+/// scheme.
 const ROUNDINGS: f64 = 60.0;
 
-/// Voxels by which the depth may be open before the ray is said to touch the surface.
+/// The largest error of the depth, in voxels. Beyond it the intersection is open.
 const MOST: f64 = 1.0 / 16.0;
 
 /// Bounds of the errors that values of the field have in f32.
@@ -24,26 +25,26 @@ pub(super) struct SurfaceErrors {
     roundings: f64,
 }
 
-/// The place at which a ray meets the surface.
+/// The intersection of a ray with the surface.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoundedHit {
     pub(super) t: f64,
-    /// The largest distance to the place of an f32 renderer, as a depth.
+    /// The largest difference in depth to the intersection of an f32 renderer.
     pub(super) error: f64,
 }
 
-/// Knowledge of the surface on a ray.
+/// The intersection of a ray with the surface, for the reference and for an f32 renderer.
 pub(super) enum Met {
-    /// Neither meets it.
+    /// Neither of them finds an intersection.
     Nowhere,
-    /// Both meet it.
+    /// Both find an intersection.
     At(BoundedHit),
-    /// One meets it and the other may not, or far from there; with the reference's depth, if it has one.
+    /// One of them may find none, or one far away. The field is the reference's depth, if it finds one.
     Open(Option<f64>),
 }
 
 impl SurfaceErrors {
-    /// Measures a trilinear field.
+    /// Measures the voxels of a trilinear field.
     pub(super) fn new(field: &Field<'_, Bounded>, iso: f64) -> Self {
         let volume = field.volume();
         let dims = volume.dims();
@@ -66,8 +67,9 @@ impl SurfaceErrors {
         Self { slopes, roundings: ROUNDING * (ROUNDINGS * largest + iso.abs()) }
     }
 
-    /// The first place at which a ray meets the surface. A value in f32 is within e of the field's, so that an f32 renderer
-    /// meets iso no sooner than the field first has iso ± e on its side, and no later than it has had both.
+    /// The first intersection of a ray with the surface. A value in f32 differs from the field's by at most e. So an
+    /// f32 renderer finds iso no sooner than the field meets the first of iso − e and iso + e, and no later than it has
+    /// met both.
     #[inline]
     pub(super) fn first(&self, prepared: &Prepared<'_, Bounded>, ray: &IndexRay<Bounded>, errors: [f64; 3]) -> Met {
         let Some(surface) = &prepared.surface else { return Met::Nowhere };
@@ -94,7 +96,7 @@ impl SurfaceErrors {
     }
 }
 
-/// A position on a ray, in the box, whose depth is not exact.
+/// The position on a ray at a depth that is known up to `error`.
 pub(super) fn at_depth(
     position: Vec3<Bounded>,
     ray: &IndexRay<Bounded>,

@@ -1,4 +1,4 @@
-//! The result of a ray, as pixels are made of it.
+//! The result of a ray, from which pixels are made.
 
 use super::layers::Sums;
 
@@ -6,7 +6,7 @@ use super::layers::Sums;
 pub(crate) struct Cast {
     /// Premultiplied colour and opacity in the blend space, without the background.
     pub(crate) rgba: [f64; 4],
-    /// Sums for the other layers; none where there are none, or nothing was seen.
+    /// Sums for the other layers; none if there are no such layers or nothing was visible.
     pub(crate) sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(crate) samples: u64,

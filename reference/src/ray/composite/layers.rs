@@ -3,7 +3,7 @@
 use drypoint_scene::math;
 use drypoint_scene::picture::LayerKind;
 
-/// A visible sample as the layers see it.
+/// The quantities of a visible sample that layers show.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LayerSample {
     /// w = (1 − A)·α(Δ).
@@ -12,7 +12,7 @@ pub(crate) struct LayerSample {
     pub(crate) depth: f64,
     /// The value.
     pub(crate) value: f64,
-    /// N in eye space, v where there is none.
+    /// N in eye space, or v if there is no normal.
     pub(crate) normal: [f64; 3],
     /// World gradient, times the power of two of [SPACE-4].
     pub(crate) gradient: [f64; 3],
@@ -20,7 +20,7 @@ pub(crate) struct LayerSample {
     pub(crate) curvature: [f64; 3],
 }
 
-/// The number of objects whose coverage layers show: up to the last that one of them names.
+/// The number of objects whose coverage is needed: up to the last object that a layer names.
 pub(crate) fn covering_objects(layers: &[LayerKind]) -> usize {
     let end = |layer: &LayerKind| if let LayerKind::Part(n) = layer { n + 1 } else { 0 };
     layers.iter().map(end).max().unwrap_or(0)
@@ -36,12 +36,12 @@ pub(crate) struct Sums {
     normal: [f64; 3],
     gradient: [f64; 3],
     curvature: [f64; 3],
-    /// Σw·w_N of each object that layers show; those after its end are 0.
+    /// Σw·w_N of each object that layers show. Missing entries are 0.
     coverage: Vec<f64>,
 }
 
 impl Sums {
-    /// Before the first sample.
+    /// The sums before the first sample.
     pub(crate) fn new() -> Self {
         let none = [0.0; 3];
         Self {
@@ -56,7 +56,7 @@ impl Sums {
         }
     }
 
-    /// Adds a sample with α > 0; `opacity` is A with this sample included, `fractions` the w_N of what it shows.
+    /// Adds a sample with α > 0. `opacity` is A with this sample included. `fractions` are the w_N of the sample.
     pub(crate) fn add(&mut self, sample: &LayerSample, opacity: f64, fractions: impl ExactSizeIterator<Item = f64>) {
         self.weight += sample.weight;
         self.first.get_or_insert(*sample);
@@ -83,8 +83,8 @@ impl Sums {
         self.coverage.get(object).copied().unwrap_or(0.0)
     }
 
-    /// Adds another ray of the same pixel to the means ([RAY-6]): they are then those over the samples of both, so a ray
-    /// counts with its opacity, and one that sees nothing not at all. Depths and what is first stay this ray's.
+    /// Adds another ray of the same pixel to the means ([RAY-6]). They become means over the samples of both rays, so
+    /// each ray counts with its opacity. Depths and the quantities of the first sample remain those of this ray.
     pub(crate) fn pool(&mut self, other: &Self) {
         self.weight += other.weight;
         for axis in 0..3 {
@@ -95,10 +95,10 @@ impl Sums {
         self.cover(other.coverage.iter().copied());
     }
 
-    /// The channels of a layer other than the beauty. Means are Σwq/Σw; where Σw = 0 they are 0 and depths are +∞.
+    /// The channels of a layer other than the beauty. Means are Σwq/Σw. If Σw = 0, means are 0 and depths are +∞.
     ///
-    /// The mean gradient is multiplied by 2^`exponent`, which takes back the power of two of [SPACE-4]: after the mean,
-    /// since the sum of what overflows both ways is no number.
+    /// The mean gradient is multiplied by 2^`exponent`, which cancels the power of two of [SPACE-4]. Multiplying the
+    /// mean is safe, whereas a sum of overflowing terms could be NaN.
     pub(crate) fn channels(&self, kind: LayerKind, samples: u64, exponent: i32, out: &mut Vec<f64>) {
         let mean = |sum: f64| if self.weight > 0.0 { sum / self.weight } else { 0.0 };
         let first = self.first.unwrap_or_default();
@@ -120,7 +120,7 @@ impl Sums {
             LayerKind::FirstCurvature => out.extend(first.curvature),
             LayerKind::FirstCurvatureAlongView => out.push(first.curvature[2]),
             LayerKind::Counts => out.push(samples as f64),
-            // They are sums over the rays of a pixel.
+            // These layers are sums over the rays of a pixel.
             LayerKind::Halo(_) | LayerKind::Part(_) => {}
         }
     }

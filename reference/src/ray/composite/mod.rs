@@ -1,7 +1,7 @@
 //! Compositing: two orders in which samples come together, by the one *over* of [`crate::accumulator`].
 //!
-//! [`ray_order`] follows one ray at a time. [`plane_order`] visits rays plane by plane, for halos, which read what lies on
-//! the planes before. Without halos both give the same bits and the same counts.
+//! [`ray_order`] follows one ray at a time. [`plane_order`] visits rays plane by plane, for halos, which depend on the
+//! samples of earlier planes. Without halos both give the same bits and the same counts.
 
 mod cast;
 mod layers;

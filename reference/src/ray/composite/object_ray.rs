@@ -1,4 +1,4 @@
-//! The objects on one ray: where it meets them, and what the sets at a sample make of its colour and opacity ([VS-2] …
+//! The objects on one ray: their ranges of samples, and the colour and opacity of all sets at a sample ([VS-2] …
 //! [VS-4], [VS-7]).
 
 use super::part_ray::{FieldEvaluator, FoundPart, Here, PartRay, SelectionSet, evaluator};
@@ -14,10 +14,10 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Cut, IntersectionPaint};
 use smallvec::{SmallVec, smallvec};
 
-/// The share of a step by which a sample has to lie before the end of a funnel.
+/// The share of a step by which a sample must lie before the end of a funnel to be cut.
 const SLACK: f64 = 1.0 / (1u64 << 32) as f64;
 
-/// The number of sets at a sample, intersections among them, that take no memory of the heap.
+/// The number of sets at a sample, intersections included, that need no heap memory.
 const INLINE: usize = 16;
 
 /// The objects on a ray.
@@ -25,17 +25,19 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
     pub(super) combination: &'p PreparedCombination<'v, R>,
     pub(super) selections: Vec<SelectionRay>,
     pub(super) parts: Vec<PartRay<'p, 'v, R>>,
-    /// The background among objects. It decides on its kernel at every call: of code that combines there is one.
+    /// The background among objects. It decides on its kernel at every call, so that the code that combines sets exists
+    /// once.
     pub(super) behind: FieldEvaluator<'p, 'v, R>,
-    /// The samples at which the background can show something; on a ray for seeds, those at which it can seed.
+    /// The samples at which the background can show something. On a ray for seeds, these are the samples at which it
+    /// can seed.
     pub(super) background: Vec<[i64; 2]>,
     /// The samples in the background's box.
     inside: [i64; 2],
-    /// The first sample that each cutaway leaves.
+    /// The first sample behind each cutaway.
     cut_ends: Vec<i64>,
-    /// Working memory: what was found of each part at a sample.
+    /// Working memory: the set of each part at a sample.
     found: Vec<Option<FoundPart<R>>>,
-    /// The fractions w_N of the background and the parts at the last sample; none if no layer shows them.
+    /// The fractions w_N of the background and the parts at the last sample; empty if no layer shows them.
     fractions: Vec<f64>,
 }
 
@@ -46,17 +48,17 @@ pub(super) struct Together<R> {
     pub(super) largest: Largest<R>,
 }
 
-/// The set with the largest μ; of equal ones a selection, a ghost, the background.
+/// The set with the largest μ. If several are equal, selections come first, then ghosts, then the background.
 pub(super) struct Largest<R> {
-    /// The place of its part; none: the background.
+    /// Index of the set's part; none for the background.
     pub(super) part: Option<usize>,
     pub(super) sample: Sample<R>,
     pub(super) attributes: SampleAttributes<R>,
 }
 
 impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
-    /// The objects on the ray through a point of the picture; none if it meets none of them. `background` are the samples at
-    /// which the background can show something or seed, `inside` those in its box.
+    /// The objects on the ray through a point of the picture. Returns none if the ray meets no object. `background`
+    /// holds the samples at which the background can show something or seed; `inside` those in its box.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         point: [f64; 2],
@@ -87,7 +89,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         self.visits_of(|_| true)
     }
 
-    /// All samples of the background and of some parts, in order and without overlap.
+    /// All samples of the background and of the parts for which `counts` holds, in order and without overlap.
     pub(super) fn visits_of(&self, counts: impl Fn(&PreparedPart<'v, R>) -> bool) -> Vec<[i64; 2]> {
         let of_parts = self.parts.iter().filter(|part| counts(part.part)).map(|part| part.range);
         let of_parts = of_parts.filter(|[first, last]| first <= last);
@@ -103,7 +105,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         visits
     }
 
-    /// Splits the samples first..=last: the first run of them, and whether more than the background alone is in it.
+    /// Splits the samples first..=last. Returns the first run, and whether it contains more than the background.
     pub(super) fn run_from(&self, [first, last]: [i64; 2]) -> ([i64; 2], bool) {
         let mut end = last;
         let mut is_mixed = false;
@@ -128,21 +130,21 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         parts.into_iter().filter(|[first, last]| first <= last)
     }
 
-    /// The fractions of the background and the parts in what the sets at the last sample show; empty if no layer asks.
+    /// The fractions w_N of the background and the parts at the last sample. Empty if no layer shows them.
     pub(super) fn fractions(&self) -> &[f64] {
         &self.fractions
     }
 
-    /// The sets at sample k together.
+    /// Evaluates and combines all sets at sample k. Returns none if nothing is visible.
     #[inline(never)]
     pub(super) fn together(&mut self, k: i64, prepared: &Prepared<'_, R>, counts: &mut Counts) -> Option<Together<R>> {
         let combination = self.combination;
         let fuzzy = combination.fuzzy;
-        // The value of the background's volume here, which its pieces share; looked up at most once.
+        // The value of the background's volume, which its pieces share. It is evaluated at most once.
         let mut here = self.here(k);
         let shares = self.shares(&mut here, counts);
 
-        // Eqs. 2 and 3: the background, faded where it lies before an object.
+        // Eqs. 2 and 3: the background, faded in front of an object.
         let mut of_background = None;
         if self.has_background(k, &shares) {
             let can_show = |cells: &CellMask, at: Sample<R>| cells.can_show(&prepared.object.field, at.at.cell);
@@ -170,7 +172,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         }
         let largest = self.largest(of_background.as_ref())?;
 
-        // Eqs. 6 and 7: intersections, taken out of the sets that meet.
+        // Eqs. 6 and 7: intersections, removed from the two sets that meet.
         let mut sets: SmallVec<[ObjectSet<R>; INLINE]> = SmallVec::new();
         let mut met: SmallVec<[[(usize, R); 2]; INLINE]> = SmallVec::new();
         let set = |found: &FoundPart<R>, shares| ObjectSet { rgb: found.rgb, mu: found.mu, shares };
@@ -202,12 +204,12 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         Some(Together { rgb, alpha, largest })
     }
 
-    /// The value of the background's volume at sample k, not looked up yet.
+    /// The sample k of the background's volume, not evaluated yet.
     pub(super) fn here(&self, k: i64) -> Here<R> {
         Here { k, is_inside: contains(self.inside, k), sample: None }
     }
 
-    /// Eq. 1 at a sample: the selections that are taken from the background there, and what is left of it.
+    /// Eq. 1 at a sample: the selections that are taken from the background, and the remaining background.
     pub(super) fn shares(&self, here: &mut Here<R>, counts: &mut Counts) -> Shares<R> {
         let (combination, k) = (self.combination, here.k);
         let takes = |(ray, s): &(&SelectionRay, &PreparedSelection<'_, R>)| s.takes && contains(ray.here.range, k);
@@ -220,7 +222,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         Shares::beside(combination.fuzzy, memberships)
     }
 
-    /// Whether sample k is one of the background, with a share that no cutaway removes.
+    /// Whether the background is present at sample k and not removed by a cutaway.
     pub(super) fn has_background(&self, k: i64, shares: &Shares<R>) -> bool {
         let is_gone = || self.cutaways_at(k).any(|gamma| gamma >= R::ONE);
         shares.background > R::ZERO && self.background.iter().any(|&range| contains(range, k)) && !is_gone()
@@ -231,7 +233,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         self.cutaways_at(k).next().is_some()
     }
 
-    /// The factor by which ghosting fades the background at sample k, whose attributes are those of the field.
+    /// The factor by which ghosting fades the background at sample k. `attributes` are those of the field.
     pub(super) fn faded(&self, k: i64, attributes: SampleAttributes<R>) -> R {
         if !self.is_cut(k) {
             return R::ONE;
@@ -242,20 +244,20 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         self.cutaways_at(k).fold(R::ONE, |factor, gamma| factor * ghosting::factor(gamma, e))
     }
 
-    /// Its size in bytes.
+    /// Size in bytes.
     pub(super) fn bytes(&self) -> u64 {
         let of_ranges = size_of_val(self.background.as_slice()) + size_of_val(self.cut_ends.as_slice());
         Self::most_bytes(self.combination) + (of_ranges + size_of_val(self.fractions.as_slice())) as u64
     }
 
-    /// Bytes of the objects on a ray that meets some, without the ranges of the background.
+    /// Bytes of the objects on one ray, without the ranges of the background.
     pub(super) fn most_bytes(combination: &PreparedCombination<'_, R>) -> u64 {
         let of_part = size_of::<PartRay<'_, '_, R>>() + size_of::<Option<FoundPart<R>>>();
         let of_selections = combination.selections.len() * size_of::<SelectionRay>();
         (size_of::<Self>() + combination.parts.len() * of_part + of_selections) as u64
     }
 
-    /// γ of the cutaways that sample k lies before.
+    /// γ of the cutaways that cover sample k.
     fn cutaways_at(&self, k: i64) -> impl Iterator<Item = R> {
         let cut = self.combination.cutaways.iter().zip(&self.cut_ends).filter(move |(_, end)| k < **end);
         cut.map(|(cutaway, _)| R::from_f64(cutaway.params.ghosting))
@@ -275,7 +277,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         largest.map(|(part, found)| Largest { part, sample: found.sample, attributes: found.attributes })
     }
 
-    /// The alternative set where a selection meets something (eq. 7), and the unshaded opacities of both.
+    /// The alternative set of an intersection (eq. 7), and the unshaded opacities of the selection and the other set.
+    /// Returns none if they do not meet.
     fn meeting(
         &mut self,
         intersection: &PreparedIntersection<'_>,
@@ -288,7 +291,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         if fuzzy::intersection(fuzzy, other.mu, selection.mu) <= R::ZERO {
             return None;
         }
-        // Unshaded colours and opacities, both by the attributes of the set with the larger μ; a tie is the selection's.
+        // Unshaded colours and opacities, both with the attributes of the set with the larger μ. If both are equal, the
+        // selection wins.
         let wins = selection.mu >= other.mu;
         let attributes = match (wins, params.ghost) {
             (true, _) => self.parts[params.selection].evaluator.shading(&selection, counts),
@@ -303,7 +307,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             None => self.behind.unlit(other.sample, asked, counts),
         };
         let of_other = (c_2, alpha_2 * other.faded);
-        // The opacity, and the colour.
+        // The opacity and the colour of the intersection.
         let (a, b) = (of_selection.1, of_other.1);
         let [a, b] = if params.swap { [b, a] } else { [a, b] };
         let preset = intersections::opacity(params.opacity, a, b);
@@ -322,7 +326,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         };
         let paint = |under, dab| intersections::painted(under, dab, values);
         let (rgb, alpha) = params.dabs.iter().fold(unpainted, paint);
-        // Shaded once, by the winner.
+        // Light is applied once, by the winner's material.
         let (rgb, alpha) = match (wins, params.ghost) {
             (true, _) => self.parts[params.selection].light((rgb, alpha), &attributes),
             (false, Some(ghost)) => self.parts[ghost].light((rgb, alpha), &attributes),
@@ -333,7 +337,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         Some((set, [of_selection.1, of_other.1]))
     }
 
-    /// The first sample that a cutaway leaves: those before it lie before d ([VS-7]).
+    /// The first sample behind a cutaway: all samples before it lie before d ([VS-7]).
     fn cut_end(&mut self, cutaway: usize, prepared: &Prepared<'v, R>, point: [f64; 2], counts: &mut Counts) -> i64 {
         let cutaway = &self.combination.cutaways[cutaway];
         let lattice = self.behind.ray;
@@ -341,7 +345,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let d = match &cutaway.funnel {
             None => d,
             Some(funnel) => match through_box(lattice.line(), prepared.object.grid.index_box()) {
-                // Rounding does not decide whether a sample at d̃ itself lies before it.
+                // The slack keeps rounding from deciding about a sample at d̃ itself.
                 Some([z_in, _]) => {
                     let end = funnel.depth(point, z_in.max(prepared.near_of(&lattice)), d);
                     end - SLACK * lattice.depth_step.to_f64()
@@ -352,14 +356,15 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         if d == f64::NEG_INFINITY { i64::MIN } else { lattice.last_before(d) + 1 }
     }
 
-    /// d of a part.
+    /// The depth d of a part.
     fn depth(&mut self, part: usize, cut: Cut, counts: &mut Counts) -> f64 {
         let part = &mut self.parts[part];
         let selection = part.part.selection;
         part.depth(&self.combination.selections[selection], &self.selections[selection], cut, counts)
     }
 
-    /// The attributes that the layers read of a part, with what only the first visible sample is asked for.
+    /// The attributes of a part for the layers. For the first visible sample of a ray they include those of the layers
+    /// `first.*`.
     pub(super) fn for_layers(
         &mut self,
         largest: &Largest<R>,
@@ -372,7 +377,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         if let (Some(first), true) = (part.part.object.first, is_first) {
             attributes = part.evaluator.evaluate(largest.sample, first, attributes, counts);
         }
-        // The gradient of the moved field, times the power of two of the background's.
+        // The gradient of the moved field, scaled by the power of two of the background's field.
         let object = &part.part.object;
         let gradient = object.moved.as_ref().map_or(attributes.gradient, |moved| moved.apply(attributes.gradient));
         let by = object.field.scale_exponent() - main_exponent;

@@ -1,5 +1,5 @@
-//! The seeds of halos at samples of objects ([VS-2]): s = max over sets of min(μ of the selection set, s of the set's own
-//! sample).
+//! The seeds of halos at samples of objects ([VS-2]). s is the maximum over sets of min(μ of the selection set, s of
+//! the set's own sample).
 
 use super::object_ray::{ObjectRay, selection_set};
 use super::selection_ray::contains;
@@ -9,9 +9,9 @@ use crate::ray::prepared_halos::PreparedHalos;
 use crate::ray::sample::SampleAttributes;
 use drypoint_scene::counts::Counts;
 
-/// Working memory of seeds, each with a place for each halo.
+/// Working memory of seeds, with one entry for each halo.
 pub(super) struct SeedScratch {
-    /// s of all sets together.
+    /// s over all sets.
     pub(super) together: Vec<f64>,
     /// s of one set.
     of_set: Vec<f64>,
@@ -20,12 +20,12 @@ pub(super) struct SeedScratch {
 }
 
 impl SeedScratch {
-    /// Memory for so many halos.
+    /// Working memory for a number of halos.
     pub(super) fn new(halos: usize) -> Self {
         Self { together: vec![0.0; halos], of_set: vec![0.0; halos], h: vec![0.0; halos] }
     }
 
-    /// Takes in the seeds of one set with a membership and a factor, and forgets them.
+    /// Adds the seeds of one set, with its membership and a factor, and clears them.
     fn join(&mut self, membership: f64, factor: f64) {
         for (together, s) in self.together.iter_mut().zip(&mut self.of_set) {
             *together = together.max(membership.min(std::mem::take(s) * factor));
@@ -52,7 +52,7 @@ impl<R: Real> ObjectRay<'_, '_, R> {
         scratch.together.fill(0.0);
         let mut here = self.here(k);
         let shares = self.shares(&mut here, counts);
-        // The background, faded where it lies before an object.
+        // The background, faded in front of an object.
         if let Some(seeds) = halos.seeds.as_ref().filter(|_| self.has_background(k, &shares))
             && let Some(sample) = here.sample(&self.behind, counts)
         {
@@ -83,7 +83,7 @@ impl<R: Real> ObjectRay<'_, '_, R> {
         for (s, halo) in scratch.together.iter_mut().zip(&halos.list) {
             *s = halo.floored(*s);
         }
-        // Samples that are asked for seeds have a count of their own.
+        // Samples that are evaluated for seeds are counted as `halo_samples`.
         counts.halo_samples += counts.samples - samples;
         (counts.samples, counts.masked) = (samples, masked);
     }

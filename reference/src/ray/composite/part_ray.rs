@@ -20,7 +20,7 @@ pub(super) type FieldEvaluator<'p, 'v, R> = Evaluator<'p, 'v, R, Field<'v, R>>;
 pub(super) struct PartRay<'p, 'v, R: Real> {
     pub(super) part: &'p PreparedPart<'v, R>,
     pub(super) evaluator: FieldEvaluator<'p, 'v, R>,
-    /// The samples at which it can show something.
+    /// The samples at which the part can show something.
     pub(super) range: [i64; 2],
 }
 
@@ -28,9 +28,9 @@ pub(super) struct PartRay<'p, 'v, R: Real> {
 #[derive(Clone, Copy)]
 pub(super) struct SelectionSet<'a, 'v, R: Real> {
     pub(super) selection: &'a PreparedSelection<'v, R>,
-    /// The selection where the part is drawn.
+    /// The selection at the place where the part is drawn.
     pub(super) placed: &'a PlacedSelection,
-    /// The factor of f_S: 1, or that of a piece of the background.
+    /// The factor of f_S: 1, or the share of a piece of the background.
     pub(super) share: R,
 }
 
@@ -40,11 +40,11 @@ pub(super) struct FoundPart<R> {
     pub(super) sample: Sample<R>,
     pub(super) attributes: SampleAttributes<R>,
     pub(super) rgb: [R; 3],
-    /// The membership of its selection set.
+    /// The membership of the part's selection set.
     pub(super) weight: R,
     /// μ of eq. 3.
     pub(super) mu: R,
-    /// The factor by which ghosting faded its opacity.
+    /// The factor by which ghosting faded the part's opacity.
     pub(super) faded: R,
 }
 
@@ -64,7 +64,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         Self { part, evaluator, range: if range[0] <= range[1] { range } else { EMPTY } }
     }
 
-    /// Its set at sample k: none where it has no members.
+    /// The part's set at sample k. Returns none if μ = 0.
     pub(super) fn found(
         &mut self,
         k: i64,
@@ -82,7 +82,8 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         (mu > R::ZERO).then_some(FoundPart { sample, attributes: seen, rgb, weight, mu, faded: R::ONE })
     }
 
-    /// Sample k and the membership of its selection set: none where that is 0, or where a cell is not asked.
+    /// Sample k and the membership of the selection set. Returns none if the membership is 0, or if `is_asked` excludes
+    /// the cell.
     pub(super) fn member(
         &self,
         k: i64,
@@ -108,7 +109,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         Some((sample, weight))
     }
 
-    /// Its value at sample k: that of the background where both are one volume at one place.
+    /// The part's sample k. It is the background's if both are one volume at one place.
     fn look_up(
         &self,
         k: i64,
@@ -139,7 +140,8 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         found().is_some()
     }
 
-    /// d: the far side of its box, or the depth of its last sample with μ > 0; −∞ if the ray misses it ([VS-7]).
+    /// d: the depth of the far side of the part's box, or of its last sample with μ > 0. Returns −∞ if the ray misses
+    /// the part ([VS-7]).
     pub(super) fn depth(
         &mut self,
         selection: &PreparedSelection<'_, R>,
@@ -162,13 +164,14 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         }
     }
 
-    /// A colour and an opacity in the light of the part.
+    /// Applies the part's light to a colour and an opacity.
     pub(super) fn light(&self, unlit: ([R; 3], R), attributes: &SampleAttributes<R>) -> ([R; 3], R) {
         self.part.object.shader.light(unlit, attributes, &self.evaluator.dirs)
     }
 }
 
-/// d of a part on the ray through a point of the picture or of a guard band about it; −∞ if it misses the part ([VS-7]).
+/// d of a part on the ray through a point of the picture or of a guard band about it. Returns −∞ if the ray misses the
+/// part ([VS-7]).
 pub(in crate::ray) fn depth_of_part<R: Real>(
     prepared: &Prepared<'_, R>,
     combination: &PreparedCombination<'_, R>,
@@ -184,7 +187,7 @@ pub(in crate::ray) fn depth_of_part<R: Real>(
 }
 
 impl<R: Real> FieldEvaluator<'_, '_, R> {
-    /// The attributes of a sample that shades a look that it meets ([VS-4]).
+    /// The attributes of a sample that shades an intersection ([VS-4]).
     pub(super) fn shading(&mut self, found: &FoundPart<R>, counts: &mut Counts) -> SampleAttributes<R> {
         let Some(beyond) = self.object.meeting else { return found.attributes };
         let attributes = self.evaluate(found.sample, beyond, found.attributes, counts);
@@ -192,11 +195,11 @@ impl<R: Real> FieldEvaluator<'_, '_, R> {
     }
 }
 
-/// A sample of the background's volume, looked up at most once.
+/// A sample of the background's volume that is evaluated at most once.
 pub(super) struct Here<R> {
     pub(super) k: i64,
     pub(super) is_inside: bool,
-    /// None: not looked up yet; the sample is none where it is masked.
+    /// None: not evaluated yet. The inner value is none if the sample is masked.
     pub(super) sample: Option<Option<Sample<R>>>,
 }
 
@@ -209,7 +212,7 @@ impl<R: Real> Here<R> {
     }
 }
 
-/// The sample of an evaluator's field on plane k; none where it is masked.
+/// The sample of an evaluator's field on plane k. Returns none if it is masked.
 fn look_up<R: Real>(evaluator: &FieldEvaluator<'_, '_, R>, k: i64, counts: &mut Counts) -> Option<Sample<R>> {
     let at = evaluator.sampler.place(evaluator.ray.position(k));
     if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {

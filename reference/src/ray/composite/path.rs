@@ -1,4 +1,4 @@
-//! The path of a ray: what it meets, front to back, before any of it is evaluated.
+//! The path of a ray: everything that it meets, front to back, before any sample is evaluated.
 
 use crate::mesh::MeshHit;
 use crate::number::Real;
@@ -11,13 +11,13 @@ use drypoint_scene::fragments::Fragment;
 pub(crate) enum Step<'l> {
     /// Whole samples first..=last.
     Samples([i64; 2]),
-    /// A share of a sample's way: the sample counts for so many steps. `again` where a share of the same sample was before.
+    /// A share of a sample, `steps` steps long. `again` is true if a share of the same sample came before.
     Share { k: i64, steps: f64, again: bool },
     /// A line, between samples or between shares of sample k.
     Line { k: i64, line: &'l Fragment },
-    /// The iso-surface or a cut of it, where the ray ends; k is the first plane behind it.
+    /// The iso-surface or a cut of it, where the ray ends. k is the first plane behind it.
     Surface { k: i64, hit: SurfaceHit },
-    /// A mesh, where the ray ends; k is the first plane behind it.
+    /// A mesh, where the ray ends. k is the first plane behind it.
     Mesh { k: i64, hit: MeshHit },
 }
 
@@ -31,7 +31,7 @@ pub(crate) enum End {
 }
 
 impl End {
-    /// The nearer of two; the surface where both are at one depth.
+    /// The nearer of two hits. At equal depths it is the surface.
     pub(crate) fn nearer(surface: Option<SurfaceHit>, mesh: Option<MeshHit>) -> Option<Self> {
         match (surface, mesh) {
             (Some(surface), Some(mesh)) if mesh.t < surface.t => Some(Self::Mesh(mesh)),
@@ -40,7 +40,7 @@ impl End {
         }
     }
 
-    /// Its depth.
+    /// Depth of the hit.
     fn depth(&self) -> f64 {
         match self {
             Self::Surface(hit) => hit.t,
@@ -56,7 +56,7 @@ impl Step<'_> {
         planes.map(move |k| if let Self::Samples(_) = self { Self::Samples([k, k]) } else { self })
     }
 
-    /// The first sample plane that it belongs to.
+    /// The first sample plane of the step.
     pub(crate) fn plane(&self) -> i64 {
         match *self {
             Self::Samples([first, _]) => first,
@@ -65,15 +65,15 @@ impl Step<'_> {
     }
 }
 
-/// Appends the steps of a ray: samples of its visits, and lines and what ends it at their own depths.
+/// Appends the steps of a ray: samples of its visits, and lines and the end of the ray at their own depths.
 ///
-/// A sample stands for the way of one step about it, so its way is split where something lies in it: the share before a line is
-/// composited, then the line, then the rest. Both shares together let through as much as the whole step:
-/// (1 − α)^s·(1 − α)^(1−s) = 1 − α.
+/// A sample stands for one step of the ray about its plane. A line in this step splits it: the share before the line is
+/// composited, then the line, then the rest. Both shares together transmit as much as the whole step: (1 − α)^s·(1 −
+/// α)^(1−s) = 1 − α.
 ///
-/// A sample counts if its plane lies before the surface or mesh. The last one stands for all the way from where its own share of the ray
-/// begins to the surface, from half a step to one and a half. So the way through a volume that is translucent before a surface
-/// grows evenly with the surface's depth, and there are no terraces on it.
+/// A sample counts if its plane lies before the surface or mesh. The last one stands for the way from the beginning of
+/// its own step to the surface, between half a step and one and a half. So the length through a translucent volume in
+/// front of a surface grows evenly with the surface's depth, and shows no terraces.
 pub(crate) fn steps<'l, R: Real>(
     ray: &IndexRay<R>,
     visits: impl Iterator<Item = [i64; 2]>,
@@ -89,16 +89,16 @@ pub(crate) fn steps<'l, R: Real>(
     }
     let step = ray.depth_step.to_f64();
     let plane = |depth: f64| (depth / step).floor() as i64;
-    // Lines beyond the surface are not seen.
+    // Lines behind the end are invisible.
     let has_lines = !lines.is_empty();
     let mut lines = surface.map_or(lines, |end| &lines[..lines.iter().take_while(|line| line.depth < end).count()]);
-    // The sample that stands for the way up to the surface.
+    // The last sample before the end stands for the way up to it.
     let last_of_all = surface.map_or(i64::MAX, |depth| ray.last_before(depth));
     for [first, last] in visits {
         let last = last.min(last_of_all);
         let mut next = first;
         while next <= last {
-            // What lies between visible bricks, where nothing is seen.
+            // Lines between visible bricks come before the next samples.
             let passed = lines.iter().take_while(|line| line.depth <= next as f64 * step).count();
             steps.extend(lines[..passed].iter().map(|line| Step::Line { k: plane(line.depth).min(next), line }));
             lines = &lines[passed..];
@@ -110,7 +110,7 @@ pub(crate) fn steps<'l, R: Real>(
                 next = to + 1;
                 continue;
             }
-            // The way of sample `split`, share by share.
+            // The step of sample `split`, share by share.
             let end = surface.filter(|_| split == last_of_all);
             let until = end.unwrap_or((split + 1) as f64 * step);
             let within = lines.iter().take_while(|line| line.depth < until).count();
@@ -118,7 +118,7 @@ pub(crate) fn steps<'l, R: Real>(
             let mut again = false;
             for (depth, line) in lines[..within].iter().map(|line| (line.depth, Some(line))).chain([(until, None)]) {
                 if depth > from {
-                    // Where no line is on the ray, k is taken from the quotient: one rounding less.
+                    // If no line is on the ray, k is subtracted from the quotient, which saves one rounding.
                     let share = if has_lines { (depth - from) / step } else { depth / step - split as f64 };
                     steps.push(Step::Share { k: split, steps: share, again });
                     (from, again) = (depth, true);

@@ -18,7 +18,7 @@ use drypoint_scene::parallel;
 /// The results of the rays of each tile, in their order.
 type Casts = Vec<(Vec<Cast>, Counts)>;
 
-/// Bytes for the rays of a region with halos, at the most: their states with a short path each, those of the seed rays, the
+/// The largest number of bytes for the rays of a region with halos: their states with a short path each, seed rays, the
 /// objects on all of them, and the images.
 pub(crate) fn bytes_with_halos<R: Real>(
     prepared: &Prepared<'_, R>,
@@ -34,13 +34,13 @@ pub(crate) fn bytes_with_halos<R: Real>(
     rays.saturating_add(of_band.saturating_mul(SeedRays::<'_, '_, R>::BYTES_OF_RAY + objects + images))
 }
 
-/// Bytes of the place of the objects of a ray, and of two more ranges of samples.
+/// Bytes of the pointer to the objects of a ray, and of two more ranges of samples.
 const SLOT: u64 = 40;
 
-/// Casts rays of a tile plane by plane, without halos.
+/// Casts the rays of a tile plane by plane, without halos.
 pub(crate) fn cast_all<R: Real>(prepared: &Prepared<'_, R>, work: TileWork<'_>) {
     let TileWork { points, boxes, counts, casts } = work;
-    // Only halos ask for the rays' places.
+    // Places are read only with halos.
     let rays = TileRays { points: points.to_vec(), places: vec![[0; 2]; points.len()], boxes: boxes.cloned() };
     let mut tile = WaitingTile::new(prepared, rays, 0);
     while tile.next != ENDED {
@@ -51,11 +51,12 @@ pub(crate) fn cast_all<R: Real>(prepared: &Prepared<'_, R>, work: TileWork<'_>) 
     counts.add(&own);
 }
 
-/// Casts the rays of a region with halos, chunk of planes by chunk of planes. A chunk ends with a group of some halo.
+/// Casts the rays of a region with halos, one chunk of planes after the other. A chunk ends with a group of some halo.
 ///
-/// In each chunk rays first composite their samples and the glow behind each plane, with what the halos had at its
-/// beginning. Then samples are asked for their seeds, also invisible ones, those of rays that have ended and those in a guard
-/// band about the region. At its end seeds become intensities. So rays of one chunk go on independently, on any thread.
+/// In each chunk rays first composite their samples and the glow behind each plane, with the halos of the chunk's
+/// beginning. Then samples seed: also invisible ones, those of rays that have ended, and those in a guard band about
+/// the region. At the end of the chunk, seeds become intensities. So within a chunk rays are independent and may run on
+/// any thread.
 pub(crate) fn cast_with_halos<R: Real>(
     (prepared, halos): (&Prepared<'_, R>, &PreparedHalos<'_>),
     tiles: Vec<TileRays>,
@@ -75,7 +76,7 @@ pub(crate) fn cast_with_halos<R: Real>(
     let last = tiles.iter().filter_map(WaitingTile::last).max().unwrap_or(first);
     let mut ended = first - 1;
     loop {
-        // The next chunk. It follows the last one where something waits; else planes without samples are passed over.
+        // The next chunk. It follows the last one if rays or seeds wait; otherwise planes without samples are skipped.
         let next = tiles.iter().map(|tile| tile.next).min().unwrap_or(ENDED);
         let next_seeds = seeds.next();
         let is_waiting = planes.is_waiting();
@@ -84,7 +85,7 @@ pub(crate) fn cast_with_halos<R: Real>(
             break;
         }
         let begin = if is_waiting { ended + 1 } else { next.min(next_seeds) };
-        // Nothing changes for rays up to the end of the group with the next seeds.
+        // Up to the end of the group with the next seeds, the rays' halos do not change.
         let end = match (is_waiting, next_seeds) {
             (true, _) => planes.group_end(begin),
             (false, ENDED) => ENDED - 1,

@@ -1,4 +1,4 @@
-//! Ray order: one ray after the other, each to its end.
+//! Ray order: each ray is followed to its end before the next one.
 
 use super::object_ray::ObjectRay;
 use super::path::{self, End, Step};
@@ -70,7 +70,8 @@ impl<'p, R: Real, S: Sampler<R>> RayState<'p, '_, R, S> {
         }
     }
 
-    /// Appends the steps of the ray, and finds the objects on it: samples are those of the background and of all parts.
+    /// Appends the steps of the ray, and finds the objects on it. The samples are those of the background and of all
+    /// parts.
     #[inline(never)]
     fn path_with_objects(
         &mut self,

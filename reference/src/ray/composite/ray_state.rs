@@ -1,4 +1,4 @@
-//! A ray on its way, sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
+//! The state of a ray, advanced sample by sample, front to back ([VAL-3], [VAL-4], [RAY-2]).
 
 use super::cast::Cast;
 use super::layers::{LayerSample, Sums};
@@ -21,28 +21,28 @@ use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragment;
 
-/// The fractions of objects in what the background alone shows.
+/// The fractions of objects where only the background shows.
 const OF_BACKGROUND: &[f64] = &[1.0];
 
-/// The most values that are computed at once.
+/// The largest number of values that are computed at once.
 const MOST_AT_ONCE: usize = 8;
 
-/// The state of a ray on its way.
+/// The state of a ray.
 pub(crate) struct RayState<'p, 'v, R: Real, S> {
     pub(crate) prepared: &'p Prepared<'v, R>,
     pub(crate) evaluator: Evaluator<'p, 'v, R, S>,
-    /// To the opacity of one step on this ray.
+    /// Converts an opacity per reference length to that of one step on this ray.
     correction: Correction,
-    /// The previous sample of the one whose shares are visited.
+    /// The sample before the one whose shares are visited.
     before_shares: Previous<R>,
     pub(crate) front: Front<R>,
-    /// A of the samples alone, without lines and glows; kept for layers.
+    /// A of the samples alone, without lines and glows. Layers use it.
     of_samples: R,
     /// Sums for the layers; none before the first sample with an opacity.
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
     pub(crate) samples: u64,
-    /// The objects on the ray; none: the background alone.
+    /// The objects on the ray; none if there is only the background.
     pub(super) objects: Option<Box<ObjectRay<'p, 'v, R>>>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
 #[derive(Clone, Copy)]
 pub(crate) struct Front<R> {
     pub(crate) accumulator: Accumulator<R>,
-    /// The last opacity that was corrected, and what it became: levels of a function repeat along a ray.
+    /// The last opacity before and after its correction. Opacities of a function repeat along a ray.
     corrected: [R; 2],
 }
 
@@ -107,7 +107,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// Visits a share of a sample's way, so many steps long.
+    /// Visits a share of a sample, `steps` steps long.
     #[inline(never)]
     fn run_share<N: Need>(
         &mut self,
@@ -115,7 +115,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         tint: Option<&Tint>,
         counts: &mut Counts,
     ) -> bool {
-        // All shares have the same sample before.
+        // All shares of a sample have the same predecessor.
         match again {
             true => self.evaluator.previous = self.before_shares,
             false => self.before_shares = self.evaluator.previous,
@@ -127,13 +127,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         open
     }
 
-    /// Takes another correction for the samples that follow.
+    /// Sets the correction for the following samples.
     fn correct_by(&mut self, correction: Correction) {
         self.correction = correction;
         self.front.corrected = [R::ZERO; 2];
     }
 
-    /// Lays a line behind what is there. Returns whether the ray is still open.
+    /// Composites a line behind the front. Returns whether the ray is still open.
     fn meet_line(&mut self, line: &Fragment, tint: Option<&Tint>) -> bool {
         let rgb = tinted(self.in_blend_space(line.rgb.map(R::from_f64)), tint);
         let alpha = R::from_f64(line.opacity);
@@ -145,12 +145,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.is_open()
     }
 
-    /// Lays the glow of a plane, premultiplied in the blend space, behind what is there.
+    /// Composites the glow of a plane, premultiplied in the blend space, behind the front.
     pub(crate) fn lay_glow(&mut self, glow: [f64; 4]) {
         self.front.accumulator.over_premultiplied(glow.map(R::from_f64));
     }
 
-    /// The opacity of one step on this ray, of an opacity per reference length ([VAL-4]).
+    /// Converts an opacity per reference length to that of one step on this ray ([VAL-4]).
     pub(crate) fn corrected(&self, alpha: f64) -> f64 {
         self.correction.apply(alpha)
     }
@@ -160,7 +160,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.front.accumulator.opacity
     }
 
-    /// Whether what lies behind would be seen.
+    /// Whether something behind the front could still be seen.
     pub(crate) fn is_open(&self) -> bool {
         self.opacity() < self.prepared.stop_at
     }
@@ -187,8 +187,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// Composites a mesh, of opacity 1, at its own depth. It has no value, gradient or curvature: in layers they are 0. It
-    /// belongs to no object.
+    /// Composites a mesh, of opacity 1, at its own depth. A mesh has no value, gradient or curvature; layers show 0 for
+    /// these. It belongs to no object.
     #[inline(never)]
     fn meet_mesh(&mut self, hit: &MeshHit, tint: Option<&Tint>) {
         let prepared = self.prepared;
@@ -201,7 +201,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// A linear colour as it is composited ([VAL-3]).
+    /// Converts a linear colour to the blend space ([VAL-3]).
     #[inline(always)]
     fn in_blend_space(&self, rgb: [R; 3]) -> [R; 3] {
         if self.prepared.encode { rgb.map(|c| R::monotone([c], |[c]| color::linear_to_srgb(c))) } else { rgb }
@@ -220,7 +220,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// Visits samples among objects: runs of the background alone as if there were none, the others one by one.
+    /// Visits samples among objects. Runs of the background alone are visited as in a picture without objects, other
+    /// samples one by one.
     #[inline(never)]
     fn run_with<N: Need>(
         &mut self,
@@ -254,14 +255,14 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         true
     }
 
-    /// The value and the normal at sample k of the set of objects that counts for most there; none without objects.
+    /// The value and the normal of the set with the largest μ at sample k. Returns none without objects.
     pub(crate) fn seen_of_objects(&mut self, k: i64) -> Option<(f64, Option<Vec3<R>>)> {
         let objects = self.objects.as_mut()?;
         let Largest { sample, attributes, .. } = objects.together(k, self.prepared, &mut Counts::default())?.largest;
         Some((sample.s.to_f64(), attributes.normal))
     }
 
-    /// Composites what objects are together at a sample.
+    /// Composites the combined sets of a sample.
     fn composite_together(
         &mut self,
         objects: &mut ObjectRay<'p, 'v, R>,
@@ -296,7 +297,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         }
     }
 
-    /// Values are computed a few samples ahead. Where a ray ends early those left over count for nothing.
+    /// Visits samples, computing values a few samples ahead. Values beyond the end of a ray are not counted.
     #[inline(always)]
     fn run_ahead<N: Need>(&mut self, [first, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         let (prepared, object) = (self.prepared, &self.prepared.object);
@@ -329,7 +330,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         open
     }
 
-    /// Values are computed only in cells that can show something.
+    /// Visits samples, computing values only in cells that can show something.
     #[inline(always)]
     fn run_by_cells<N: Need>(&mut self, [first, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> bool {
         let (prepared, object) = (self.prepared, &self.prepared.object);
@@ -356,7 +357,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         open
     }
 
-    /// Whether a voxel of a sample's cell is masked, which is counted.
+    /// Whether a voxel of a sample's cell is masked. Counts it if so.
     #[inline(always)]
     fn is_masked(&self, at: CellPosition<R>, counts: &mut Counts) -> bool {
         let is_masked = self.prepared.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell));
@@ -382,7 +383,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.composite::<N>(sample, shaded, attributes, front, tint, counts);
     }
 
-    /// Visits a sample of a function over two quantities: what they need is asked first, and the rest only where α_u > 0.
+    /// Visits a sample of a function over two quantities. These quantities are evaluated first, the rest only if α_u >
+    /// 0.
     #[inline(never)]
     fn visit_over_two(
         &mut self,
@@ -396,7 +398,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.composite::<need::Anything>(sample, shaded, attributes, front, tint, counts);
     }
 
-    /// Composites a shaded sample, of an opacity per reference length.
+    /// Composites a shaded sample, whose opacity is per reference length.
     #[inline(always)]
     fn composite<N: Need>(
         &mut self,
@@ -440,8 +442,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         self.add_to_layers(alpha, depth, sample.s.to_f64(), &attributes, fractions);
     }
 
-    /// Adds a value at a depth to the layers, by its α(Δ). There A is the opacity of samples alone ([IO-6]). `fractions`
-    /// are those of the objects in what is shown, from the background on.
+    /// Adds a value at a depth to the layers, weighted by its α(Δ). A is here the opacity of the samples alone
+    /// ([IO-6]). `fractions` are those of the background and of the objects.
     fn add_to_layers(&mut self, alpha: R, depth: f64, value: f64, attributes: &SampleAttributes<R>, fractions: &[f64]) {
         let w = (R::ONE - self.of_samples) * alpha;
         self.of_samples = if alpha < R::ONE { self.of_samples + w } else { R::ONE };

@@ -1,7 +1,7 @@
-//! Rays on which samples are asked for the seeds of halos ([HALO-2], [HALO-4], [RAY-2]).
+//! Rays along which samples are evaluated for the seeds of halos ([HALO-2], [HALO-4], [RAY-2]).
 //!
-//! A seed depends on the field at its sample alone, not on what is visible in front of it. So seeds have rays of their own,
-//! in the guard band about the picture too, with samples on the same planes.
+//! A seed depends on the field at its sample alone, and not on the visibility in front of it. So seeds have rays of
+//! their own, also in the guard band about the picture, with samples on the same planes.
 
 use super::object_ray::ObjectRay;
 use super::object_seeds::SeedScratch;
@@ -31,17 +31,17 @@ pub(super) struct SeedRays<'p, 'v, R: Real> {
     region: RayRect,
     /// Rays across and down, with the guard band.
     size: [usize; 2],
-    /// The tiles of the region that were open when rays were dropped last.
+    /// The tiles of the region that were open when rays were last dropped.
     open: Vec<bool>,
 }
 
 /// Seed rays of one tile.
 struct SeedTile<'p, 'v, R: Real> {
     rays: Vec<SeedRay<'p, 'v, R>>,
-    /// The next plane of each ray and the last one of the range that it is in: apart from the rays, which most chunks then
-    /// need not touch.
+    /// The next plane of each ray, and the last plane of its current range. They are stored apart from the rays, which
+    /// most chunks then need not touch.
     planes: Vec<[i64; 2]>,
-    /// Ranges of samples in bricks that can seed, ray after ray, of each nearest first.
+    /// Ranges of samples in bricks that can seed, ray by ray, nearest first.
     ranges: Vec<[i64; 2]>,
     /// The objects on each ray that meets some; empty in a picture without objects.
     objects: Vec<Option<Box<ObjectRay<'p, 'v, R>>>>,
@@ -49,12 +49,12 @@ struct SeedTile<'p, 'v, R: Real> {
     next: i64,
 }
 
-/// A ray on which samples are asked for seeds.
+/// A ray along which samples are evaluated for seeds.
 struct SeedRay<'p, 'v, R: Real> {
     evaluator: Evaluator<'p, 'v, R, Field<'v, R>>,
     /// Its place in the strip.
     place: usize,
-    /// The ranges of the tile that come after the one it is in.
+    /// The ranges of the tile that follow the ray's current range.
     ranges: Range<usize>,
 }
 
@@ -62,8 +62,8 @@ impl<'p, 'v, R: Real> SeedRays<'p, 'v, R> {
     /// Bytes of a ray with two ranges of samples.
     pub(super) const BYTES_OF_RAY: u64 = (size_of::<SeedRay<'_, '_, R>>() + 3 * size_of::<[i64; 2]>()) as u64;
 
-    /// Aims the rays of a region; `size` is that of the images, with the guard band. Adds to the counts what it takes to find
-    /// cutaways on them.
+    /// Aims the rays of a region. `size` is that of the images, guard band included. Adds the evaluations that find
+    /// cutaways to the counts.
     pub(super) fn new(
         prepared: &'p Prepared<'v, R>,
         halos: &'p PreparedHalos<'v>,
@@ -91,7 +91,7 @@ impl<'p, 'v, R: Real> SeedRays<'p, 'v, R> {
         self.strips.iter().flatten().map(|tile| tile.next).min().unwrap_or(ENDED)
     }
 
-    /// Drops the rays whose seeds reach no pixel that is open, of which `open` tells the tiles of the region.
+    /// Drops the rays whose seeds reach no open pixel. `open` tells which tiles of the region have open pixels.
     pub(super) fn keep_near(&mut self, open: Vec<bool>) {
         if open == self.open {
             return;
@@ -100,7 +100,7 @@ impl<'p, 'v, R: Real> SeedRays<'p, 'v, R> {
         let mut near = vec![false; across * self.strips.len()];
         for (tile, _) in open.iter().enumerate().filter(|(_, open)| **open) {
             let [columns, rows] = self.region.tile(tile).map(|[from, to]| {
-                // The reach of a pixel begins a guard band before it, which is where the images begin.
+                // Images begin a guard band before the region, and so does the reach of a pixel.
                 [from / SIDE, (to + 2 * guard) / SIDE]
             });
             for row in rows[0]..=rows[1].min(self.strips.len() - 1) {
@@ -170,7 +170,7 @@ impl<'p, 'v, R: Real> SeedTile<'p, 'v, R> {
         let guard = (size[0] - region.size[0]) / 2;
         let first = [column * SIDE, strip * SIDE];
         let [columns, rows] = [0, 1].map(|a| SIDE.min(size[a] - first[a]));
-        // The first ray among those of the picture; those of the guard band stand before 0 or beyond the last.
+        // The first ray among those of the picture. Rays of the guard band have places below 0 or beyond the last one.
         let ray_at = |place: [usize; 2]| [0, 1].map(|a| (place[a] + region.first[a]) as i64 - guard as i64);
         let (view, object) = (&prepared.view, &prepared.object);
         let grid = object.volume.grid();
@@ -227,7 +227,8 @@ impl<'p, 'v, R: Real> SeedTile<'p, 'v, R> {
 }
 
 impl<R: Real> SeedRay<'_, '_, R> {
-    /// Adds the seeds of the samples first..=last: runs of the volume alone as if there were no objects, the others together.
+    /// Adds the seeds of the samples first..=last. Runs without objects use the volume alone, other samples the
+    /// combined sets.
     #[inline]
     fn seed_run(
         &mut self,
@@ -282,7 +283,7 @@ impl<R: Real> SeedRay<'_, '_, R> {
     }
 }
 
-/// The nearest of the next planes of rays.
+/// The nearest of the rays' next planes.
 fn nearest(planes: &[[i64; 2]]) -> i64 {
     planes.iter().map(|&[next, _]| next).min().unwrap_or(ENDED)
 }

@@ -36,7 +36,7 @@ impl SelectionRay {
 }
 
 impl PlacedSelection {
-    /// f_S at sample k, which lies in the box. `value` is the data's.
+    /// f_S at sample k, which lies in the box. `value` returns the value of the data.
     pub(super) fn membership<R: Real>(
         &self,
         selection: &PreparedSelection<'_, R>,

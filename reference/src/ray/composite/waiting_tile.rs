@@ -1,4 +1,4 @@
-//! Rays of one tile that wait for their next planes, each with a path on which it can go on.
+//! The rays of one tile, which wait between chunks of planes. Each has its path and its place on it.
 
 use super::cast::Cast;
 use super::path::Step;
@@ -11,18 +11,18 @@ use crate::ray::tile_work::TileRays;
 use crate::volumetric_halos::{HaloPlanes, Tint};
 use drypoint_scene::counts::Counts;
 
-/// No plane: the ray, the tile or the picture has ended.
+/// Stands for no plane: the ray, the tile or the picture has ended.
 pub(super) const ENDED: i64 = i64::MAX;
 
 /// Rays of one tile.
 pub(super) struct WaitingTile<'p, 'v, R: Real> {
     rays: Vec<WaitingRay<'p, 'v, R>>,
-    /// Rays that have steps left: the plane of the next one, and the ray. It stands apart from the rays, which most chunks then
-    /// need not touch.
+    /// The next plane and the index of each ray that has steps left. They are stored apart from the rays, which most
+    /// chunks then need not touch.
     open: Vec<(i64, usize)>,
-    /// The nearest of these planes.
+    /// The nearest plane in `open`.
     pub(super) next: i64,
-    /// Whether anything behind one of its rays would be seen.
+    /// Whether something behind one of the tile's rays could still be seen.
     pub(super) is_open: bool,
     counts: Counts,
 }
@@ -33,7 +33,7 @@ struct WaitingRay<'p, 'v, R: Real> {
     /// Column and row among the rays of the region.
     place: [usize; 2],
     path: Vec<Step<'p>>,
-    /// The step that comes next.
+    /// Index of the next step.
     at: usize,
     /// The largest intensities of the halos that layers show.
     intensities: Box<[f64]>,
@@ -43,7 +43,7 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
     /// Bytes of a ray with a path of two steps.
     pub(super) const BYTES_OF_RAY: u64 = (size_of::<WaitingRay<'_, '_, R>>() + 2 * size_of::<Step<'_>>() + 32) as u64;
 
-    /// Aims the rays of a tile, with so many halos that layers show.
+    /// Aims the rays of a tile. `watched` is the number of halos that layers show.
     pub(super) fn new(prepared: &'p Prepared<'v, R>, mut tile: TileRays, watched: usize) -> Self {
         let mut counts = Counts::default();
         let rays = tile.points.iter().zip(&tile.places).map(|(&point, &place)| {
@@ -59,18 +59,18 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
         Self { next: nearest(&open), rays, open, is_open: true, counts }
     }
 
-    /// Visits the planes of its rays up to `last`, without halos.
+    /// Visits the planes of the tile's rays up to `last`, without halos.
     pub(super) fn visit(&mut self, last: i64) {
         self.visit_with(last, |_| None);
     }
 
-    /// Visits the planes of its rays up to `last` under the tints of the groups before.
+    /// Visits the planes of the tile's rays up to `last`, under the tints of the previous groups.
     pub(super) fn visit_tinted(&mut self, last: i64, halos: &HaloPlanes<'_>) {
         self.visit_with(last, |place| halos.tint(halos.place(place)));
         self.is_open = self.rays.iter().any(|ray| ray.state.is_open());
     }
 
-    /// Visits the planes of its rays up to `last` under the tint of each.
+    /// Visits the planes of the tile's rays up to `last`, each ray under its tint.
     fn visit_with(&mut self, last: i64, tint: impl Fn([usize; 2]) -> Option<Tint>) {
         self.open.retain_mut(|(next, i)| {
             if *next <= last {
@@ -82,12 +82,12 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
         self.next = nearest(&self.open);
     }
 
-    /// Visits the planes first..=last of its rays under the tints of the groups before, each plane followed by the glow of
-    /// the group before.
+    /// Visits the planes first..=last of the tile's rays under the tints of the previous groups. The glow of the
+    /// previous group follows each plane.
     pub(super) fn visit_glowing(&mut self, [first, last]: [i64; 2], halos: &HaloPlanes<'_>) {
         let mut open = std::mem::take(&mut self.open).into_iter().peekable();
         for (i, ray) in self.rays.iter_mut().enumerate() {
-            // Rays stand in their order in both lists.
+            // Both lists are in the order of the rays.
             let mut next = open.next_if(|(_, ray)| *ray == i).map_or(ENDED, |(next, _)| next);
             if !ray.state.is_open() {
                 continue;
@@ -111,7 +111,7 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
                     }
                 }
             }
-            // What lies in front hides all that follows.
+            // A ray that is opaque sees nothing that follows.
             if ray.state.is_open() && next != ENDED {
                 self.open.push((next, i));
             }
@@ -120,7 +120,7 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
         self.is_open = self.rays.iter().any(|ray| ray.state.is_open());
     }
 
-    /// The last plane of any of its paths.
+    /// The last plane of any path.
     pub(super) fn last(&self) -> Option<i64> {
         let last = |ray: &WaitingRay<'_, '_, R>| match *ray.path.last()? {
             Step::Samples([_, last]) => Some(last),
@@ -129,7 +129,7 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
         self.rays.iter().filter_map(last).max()
     }
 
-    /// Bytes of the states of its rays.
+    /// Bytes of the states of the tile's rays.
     pub(super) fn bytes(&self) -> u64 {
         let own = |ray: &WaitingRay<'_, '_, R>| {
             let objects = ray.state.objects.as_ref().map_or(0, |objects| objects.bytes());
@@ -150,7 +150,8 @@ impl<'p, 'v, R: Real> WaitingTile<'p, 'v, R> {
 }
 
 impl<R: Real> WaitingRay<'_, '_, R> {
-    /// Takes all its steps on the planes up to `last`, of which the next is given. Returns the plane that comes then.
+    /// Takes the ray's steps on the planes up to `last`, where `next` is its next plane. Returns the plane of the step
+    /// after these.
     fn visit(&mut self, [mut next, last]: [i64; 2], tint: Option<&Tint>, counts: &mut Counts) -> i64 {
         while next <= last {
             let whole = self.path[self.at];
@@ -173,7 +174,7 @@ impl<R: Real> WaitingRay<'_, '_, R> {
     }
 }
 
-/// The nearest of the next planes of rays.
+/// The nearest of the rays' next planes.
 fn nearest(open: &[(i64, usize)]) -> i64 {
     open.iter().map(|(next, _)| *next).min().unwrap_or(ENDED)
 }

@@ -9,7 +9,7 @@ use drypoint_scene::glam::DVec3;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// The depths at which each of the first `n` rays is in one of the boxes, as [`Line::meets`] and [`add`] have them.
+/// The depths at which each of the first `n` rays is in one of the boxes, as by [`Line::meets`] and [`add`].
 #[inline(always)]
 pub(super) fn intervals<S: Simd>(
     simd: S,
@@ -38,7 +38,7 @@ pub(super) fn intervals<S: Simd>(
         differ |= back != 0 && back != there;
     }
     if differ {
-        // Lines that run towards different octants.
+        // The lines run towards different octants.
         for (lane, intervals) in intervals.iter_mut().enumerate().take(n) {
             let at = |v: &Vec3<f64x8<S>>| DVec3::new(v.x[lane], v.y[lane], v.z[lane]);
             let line = boxes.line([at(&rays.origin), at(&rays.along)], f64::EPSILON);
@@ -46,7 +46,7 @@ pub(super) fn intervals<S: Simd>(
         }
         return;
     }
-    // The last interval of each line, which the next box mostly goes on with, as `add` has it.
+    // The last interval of each line, which the next box mostly continues, as in `add`.
     let (mut last_from, mut last_to) = (f64x8::splat(simd, f64::INFINITY), f64x8::splat(simd, f64::NEG_INFINITY));
     let mut begun = 0;
     for ends in boxes.ends() {

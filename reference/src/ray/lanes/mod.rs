@@ -1,17 +1,18 @@
-//! Eight rays side by side: the pictures that are asked for most, unshaded, Phong and styles, to the same bits sooner.
+//! Eight rays side by side, for the most common pictures: unshaded, Phong and styles. The bits are the same.
 //!
-//! Neighbouring rays take the samples of [`ray_order`](super::composite::ray_order) plane by plane here, in vectors of the
-//! widest registers that the processor has. Each lane takes the steps of its ray alone, in their order, with +, −, ×, ÷ and √
-//! only, which are the same in a vector; what branches or looks things up is done lane by lane. Rays visit the samples
-//! that they would visit alone, so the counts are the same too.
+//! Neighbouring rays take the samples of [`ray_order`](super::composite::ray_order) plane by plane, in vectors of the
+//! widest registers of the processor. Each lane takes the operations of its ray alone, in their order, with +, −, ×, ÷
+//! and √ only, which are the same in a vector. Branches and table look-ups are done lane by lane. Rays visit the
+//! samples that they would visit alone, so the counts are the same too.
 //!
-//! A ray comes along through bricks where only its neighbours can see something. It sees nothing there, and the counts leave
-//! those samples out. A kernel of 64 voxels is as fast for one position as for eight, four voxels of a row in one register, so
-//! it is asked lane by lane, through a trait object: the loops are compiled once for all such kernels. Styles gain from that,
-//! and regular functions do not; these are cast ray by ray there.
+//! A ray also passes through bricks in which only its neighbours can see something. It sees nothing there, and the
+//! counts leave these samples out. A kernel of 64 voxels is as fast for one position as for eight, with four voxels of
+//! a row in one register. It is therefore evaluated lane by lane, through a trait object, so that the loops are
+//! compiled once for all such kernels. With such a kernel styles gain from lanes. Regular functions do not, and are
+//! cast ray by ray.
 //!
-//! Lanes that are set one by one are put into an array of their own. A vector that is indexed does not stay in registers, nor
-//! does what stands in one variable with it.
+//! Lanes that are set one by one are put into an array of their own. A vector that is indexed does not stay in
+//! registers, nor do the other fields of its variable.
 
 mod intervals;
 mod normal;
@@ -72,7 +73,7 @@ fn is_in_style(prepared: &Prepared<'_, f64>) -> bool {
         && !prepared.encode
 }
 
-/// Casts rays of a tile, of scenes that lanes [`serve`].
+/// Casts the rays of a tile, for scenes that lanes [`serve`].
 pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     let TileWork { points, boxes, counts, casts, .. } = work;
     if boxes.as_ref().is_some_and(|boxes| boxes.is_empty()) {
@@ -123,8 +124,8 @@ pub(super) fn cast_all(prepared: &Prepared<'_, f64>, work: TileWork<'_>) {
     }
 }
 
-/// Casts the rays of packets through small whole numbers, of which the flag says whether they have a sign. Each shader is
-/// compiled in a function of its own: the compiler's time grows faster than a function.
+/// Casts the rays of packets through integers of 8 or 16 bits. `is_signed` tells whether they have a sign. Each shader
+/// is compiled in a function of its own, because the compiler's time grows faster than the size of a function.
 fn run<V: Packed>(
     prepared: &Prepared<'_, f64>,
     packets: &mut [Packet<'_, '_>],
@@ -162,7 +163,7 @@ fn run<V: Packed>(
     }
 }
 
-/// Casts the rays of packets in styles through a field that is asked for one position after the other.
+/// Casts the rays of packets in styles through a field that is evaluated one position at a time.
 fn run_each(prepared: &Prepared<'_, f64>, packets: &mut [Packet<'_, '_>], counts: &mut Counts) {
     let SampleShader::Style(styled) = &prepared.object.shader else {
         unreachable!("lanes serve dear kernels in styles alone")
@@ -182,10 +183,10 @@ type Row = [f64; 4];
 /// Depths at which each of eight rays is in a visible brick.
 type Intervals = [Vec<[f64; 2]>; LANES];
 
-/// Rays whose samples wait for each other: those of a tile.
+/// Number of rays whose samples wait for each other: those of a tile.
 const RAYS: usize = 8 * LANES;
 
-/// Rays side by side and what comes out of them. Lanes without a ray visit nothing.
+/// Rays side by side and their results. Lanes without a ray visit nothing.
 struct Packet<'p, 'v> {
     prepared: &'p Prepared<'v, f64>,
     origin: [Column; 3],
@@ -204,12 +205,12 @@ struct Packet<'p, 'v> {
     visits: Vec<[i64; 2]>,
     /// The range of each ray's visits among them.
     of_ray: [[usize; 2]; LANES],
-    /// The union of all visits, in order and without overlap. A ray sees nothing between its own visits, so it may come
-    /// along with its neighbours.
+    /// The union of all visits, in order and without overlap. A ray sees nothing between its own visits, so it may
+    /// follow those of its neighbours.
     together: Vec<[i64; 2]>,
-    /// First and last sample of each ray, and after the walk the one where it ended.
+    /// First and last sample of each ray. After the traversal the last one is where the ray ended.
     ends: [Column; 2],
-    /// The planes for which values were asked for, where values are dear.
+    /// The planes and lanes for which values were computed, if values are expensive.
     asked: Vec<Asked>,
     rgba: [[f64; 4]; LANES],
 }
@@ -236,8 +237,8 @@ impl<'p, 'v> Packet<'p, 'v> {
         }
     }
 
-    /// Takes the rays through other points, past the boxes of visible bricks, with whether all of these are farther than half
-    /// a voxel from the end of the volume.
+    /// Takes the rays through other points, with the boxes of visible bricks. The flag tells whether all boxes lie more
+    /// than half a voxel inside the volume.
     #[inline(always)]
     fn aim<S: Simd>(
         &mut self,
@@ -288,7 +289,7 @@ impl<'p, 'v> Packet<'p, 'v> {
         self.join();
     }
 
-    /// One of the rays.
+    /// The ray of a lane.
     #[inline(always)]
     fn ray(&self, lane: usize) -> IndexRay<f64> {
         let vector = |[x, y, z]: &[Column; 3]| Vec3::new(x[lane], y[lane], z[lane]);
@@ -312,7 +313,8 @@ impl<'p, 'v> Packet<'p, 'v> {
         }
     }
 
-    /// The samples that a ray visited, or where values are dear, that it asked the value of.
+    /// The number of samples that a ray visited. If values are expensive, it is the number of values that were
+    /// computed.
     fn samples(&self, lane: usize, dear: bool) -> u64 {
         let [first, end] = self.of_ray[lane];
         let last = self.ends[1][lane] as i64;
@@ -323,8 +325,7 @@ impl<'p, 'v> Packet<'p, 'v> {
     }
 }
 
-/// Adds a range to ranges in order that do not meet, none of which before `from` lies behind its beginning, and returns where
-/// it went.
+/// Adds a range to disjoint ranges in order, and returns its index. No range before `from` lies behind its beginning.
 fn unite(ranges: &mut Vec<[i64; 2]>, [first, last]: [i64; 2], mut from: usize) -> usize {
     while from < ranges.len() && ranges[from][1] + 1 < first {
         from += 1;
@@ -346,7 +347,7 @@ fn stored<S: Simd>(v: Vec3<f64x8<S>>) -> [Column; 3] {
     [v.x.into(), v.y.into(), v.z.into()]
 }
 
-/// Rows as columns, from the row of each lane.
+/// The rows of the rays of all lanes, as columns.
 #[inline(always)]
 fn of_rays<S: Simd, const N: usize>(simd: S, of_ray: &[Row; N], rays: &[u8; LANES]) -> [f64x8<S>; 4] {
     let mut rows = [f64x4::splat(simd, 0.0); LANES];

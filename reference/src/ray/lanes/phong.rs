@@ -1,4 +1,4 @@
-//! Regular functions in lanes: colours as they are, and Blinn–Phong ([STF-11]).
+//! Regular functions in lanes: unshaded colours, and Blinn–Phong ([STF-11]).
 
 use super::normal::shading;
 use super::ray_lanes::{LaneSamples, RayLanes, ShadeLanes};

@@ -11,7 +11,7 @@ use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// Eight rays on their way.
+/// The states of eight rays.
 pub(super) struct RayLanes<'p, 'v, S: Simd, F> {
     pub(super) simd: S,
     pub(super) prepared: &'p Prepared<'v, f64>,
@@ -23,8 +23,8 @@ pub(super) struct RayLanes<'p, 'v, S: Simd, F> {
     ratio: f64x8<S>,
 }
 
-/// Planes whose values are asked for before the first of them is shown: values need not wait for each other, and what
-/// follows a guess of the processor about one sample would be lost with it.
+/// Number of planes whose values are computed before the first of them is shown. Values then need not wait for each
+/// other, and a mispredicted branch at one sample does not discard the others.
 pub(super) const AHEAD: usize = 4;
 
 /// Values of samples on some planes.
@@ -33,11 +33,11 @@ pub(super) struct Lookahead<S: Simd> {
     s: [f64x8<S>; AHEAD],
     /// The lanes whose values were asked for.
     asked: [u64; AHEAD],
-    /// The planes on which something may be seen, a bit each.
+    /// One bit for each plane on which something may be visible.
     seen: u32,
 }
 
-/// A plane of a packet on which values were dear, and the lanes that asked for one.
+/// A plane of a packet on which values were expensive, and the lanes for which they were computed.
 pub(super) type Asked = (i64, u64);
 
 impl<S: Simd> Lookahead<S> {
@@ -46,7 +46,7 @@ impl<S: Simd> Lookahead<S> {
         Self { first: 0, s: [f64x8::splat(simd, 0.0); AHEAD], asked: [0; AHEAD], seen: 0 }
     }
 
-    /// The next plane on which something may be seen, the values there, and the lanes that asked for them.
+    /// The next plane on which something may be visible, the values there, and the lanes for which they were computed.
     #[inline(always)]
     pub(super) fn next(&mut self) -> Option<(i64, f64x8<S>, u64)> {
         if self.seen == 0 {
@@ -58,11 +58,11 @@ impl<S: Simd> Lookahead<S> {
     }
 }
 
-/// Samples of one plane that can be seen.
+/// The visible samples of one plane.
 pub(super) struct LaneSamples<S: Simd> {
     /// k.
     pub(super) k: f64,
-    /// Between which nodes their values lie; its lanes are the ones that count.
+    /// Places between nodes. Its visible lanes are the ones that count.
     pub(super) place: transfer::lanes::NodePlaces<S>,
     /// The lanes of `place` as a mask.
     pub(super) seen: mask64x8<S>,
@@ -70,7 +70,7 @@ pub(super) struct LaneSamples<S: Simd> {
 
 /// A shader of eight samples of one plane.
 pub(super) trait ShadeLanes<S: Simd> {
-    /// Straight colours and opacities per reference length of the lanes that are seen.
+    /// Straight colours and opacities per reference length of the visible lanes.
     fn show<F: Reader<S>>(
         &mut self,
         walk: &RayLanes<'_, '_, S, F>,
@@ -79,15 +79,15 @@ pub(super) trait ShadeLanes<S: Simd> {
     ) -> ([f64x8<S>; 3], f64x8<S>);
 }
 
-/// Colours and opacities in front on eight rays.
+/// The accumulated colours and opacities of eight rays.
 struct LaneFront<S: Simd> {
     accumulator: Accumulator<f64x8<S>>,
-    /// The last opacities that were corrected, and what they became: levels of a function repeat along a ray.
+    /// The last opacities before and after their correction. Opacities of a function repeat along a ray.
     corrected: [f64x8<S>; 2],
 }
 
 impl<S: Simd> LaneFront<S> {
-    /// Corrects the opacities of the lanes `fresh`: together, or alone where they are few.
+    /// Corrects the opacities of the lanes `fresh`, together if they are many, else one by one.
     #[inline(always)]
     fn correct(&mut self, fresh: u64, alpha: f64x8<S>, ratio: f64x8<S>) {
         let lanes = mask64x8::from_bitmask(alpha.simd, fresh);
@@ -130,7 +130,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
         let nearest: f64x8<S> = packet.ends[0].simd_into(self.simd);
         let mut farthest: f64x8<S> = packet.ends[1].simd_into(self.simd);
         let mut ahead = Lookahead::new(self.simd);
-        // Nothing dear is cast here.
+        // Values are cheap here, so `asked` stays empty.
         let mut asked = Vec::new();
         'rays: for &[first, last] in &packet.together {
             for group in (first..=last).step_by(AHEAD) {
@@ -155,7 +155,8 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
         }
     }
 
-    /// The values of the first planes of a range, where they may be seen on rays that are open and that begin at `nearest`.
+    /// The values of the first planes of a range, in lanes where something may be visible, whose rays are open and
+    /// begin at `nearest`.
     #[inline(always)]
     pub(super) fn look_ahead(
         &self,
@@ -185,7 +186,7 @@ impl<'p, 'v, S: Simd, F: Reader<S>> RayLanes<'p, 'v, S, F> {
         }
     }
 
-    /// Lanes in whose cells something may be seen.
+    /// The lanes in whose cells something may be visible.
     #[inline(always)]
     fn where_cells_show(&self, at: &Places<S>, lanes: u64) -> u64 {
         let Some(cells) = &self.prepared.cells else { return lanes };

@@ -1,5 +1,6 @@
-//! Rays through eight points of the picture side by side: the steps of [`View::ray`](drypoint_scene::view::View::ray),
-//! [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and [`SampleShader::view_dirs`](crate::ray::sample::SampleShader::view_dirs).
+//! Rays through eight points of the picture side by side. The operations are those of
+//! [`View::ray`](drypoint_scene::view::View::ray), [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and
+//! [`SampleShader::view_dirs`](crate::ray::sample::SampleShader::view_dirs).
 
 use super::LANES;
 use crate::number::Vec3;
@@ -14,7 +15,7 @@ use fearless_simd::{Simd, f64x8};
 pub(super) struct Rays<S: Simd> {
     /// Origin in index space.
     pub(super) origin: Vec3<f64x8<S>>,
-    /// In index space, for one unit of depth.
+    /// Displacement in index space for one unit of depth.
     pub(super) along: Vec3<f64x8<S>>,
     /// Eye depth between samples.
     pub(super) depth_step: f64x8<S>,
@@ -24,7 +25,7 @@ pub(super) struct Rays<S: Simd> {
     pub(super) v: Vec3<f64x8<S>>,
     /// v in eye space.
     pub(super) v_eye: Vec3<f64x8<S>>,
-    /// Ĥ, where there is Phong shading.
+    /// Ĥ, if there is Phong shading.
     pub(super) half: Vec3<f64x8<S>>,
 }
 

@@ -1,10 +1,10 @@
-//! Samples that wait until eight of them can be shown together.
+//! A queue of samples, which are shaded eight at a time.
 //!
-//! Often only one or two of eight neighbouring rays see something, and a style's sample is as dear for one ray as for
-//! eight. So samples that are seen wait, and are shown eight at a time, whichever rays of a tile they lie on. A ray may
-//! so be followed a little beyond the sample where it ends; what was done there is neither shown nor counted. Eight rays
-//! that all seem to have ended are left for the next eight, and followed further only if what waited turns out to let light
-//! through.
+//! Often only one or two of eight neighbouring rays see something, and shading a style's sample costs as much for one
+//! ray as for eight. So visible samples wait, and are shaded eight at a time, whichever rays of a tile they lie on. A
+//! ray may therefore be followed slightly beyond the sample where it ends; samples there are neither shown nor counted.
+//! Eight rays that all seem to have ended are suspended. They are followed further only if the waiting samples turn out
+//! to be translucent.
 
 use super::ray_lanes::{AHEAD, Asked, Lookahead, RayLanes};
 use super::style::{ShadedLanes, StyleShader};
@@ -22,9 +22,9 @@ use drypoint_scene::counts::Counts;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-/// Numbers of a sample: k, its cell, the ways into it, α_u and i − i₀.
+/// Numbers of a sample: k, its cell, the fractions in the cell, α_u and i − i₀.
 const NUMBERS: usize = 9;
-/// Seven may be left over when eight come.
+/// Seven samples may be left over when eight more come.
 const ROOM: usize = 2 * LANES;
 
 /// Samples in the order in which they were found.
@@ -35,11 +35,11 @@ struct SampleQueue {
     rays: [u8; ROOM],
 }
 
-/// Samples to be shown together.
+/// Samples that are shaded together.
 pub(super) struct Batch<S: Simd> {
     /// Lanes with a sample.
     pub(super) asked: u64,
-    /// The ray of each: the place of its packet, eight rays a place, and its lane.
+    /// The ray of each sample: eight times the index of its packet, plus its lane.
     pub(super) rays: [u8; LANES],
     pub(super) k: f64x8<S>,
     pub(super) at: Places<S>,
@@ -51,7 +51,7 @@ impl SampleQueue {
         Self { len: 0, numbers: [[0.0; ROOM]; NUMBERS], nodes: [0; ROOM], rays: [0; ROOM] }
     }
 
-    /// Takes the visible samples of one plane of the packet at a place.
+    /// Adds the visible samples of one plane of a packet.
     #[inline(always)]
     fn push<S: Simd>(&mut self, packet: usize, k: f64, at: Places<S>, place: &transfer::lanes::NodePlaces<S>) {
         let [x, y, z, wx, wy, wz] = at.to_columns();
@@ -61,7 +61,7 @@ impl SampleQueue {
         while left != 0 {
             let lane = left.trailing_zeros() as usize % LANES;
             left &= left - 1;
-            // At most seven wait, so there is room for eight; the compiler cannot know.
+            // At most seven samples wait, so there is room for eight more. The compiler cannot know this.
             let to = self.len % ROOM;
             for (numbers, column) in self.numbers.iter_mut().zip(&columns) {
                 numbers[to] = column[lane];
@@ -71,7 +71,7 @@ impl SampleQueue {
         }
     }
 
-    /// Gives away the first eight, or as many as there are.
+    /// Removes and returns the first eight samples, or as many as there are.
     #[inline(always)]
     fn pop<S: Simd>(&mut self, simd: S) -> Batch<S> {
         let mut columns = [f64x8::splat(simd, 0.0); NUMBERS];
@@ -101,11 +101,11 @@ impl SampleQueue {
     }
 }
 
-/// The rays of a tile: what lies in front on each, and the sample where it ends.
+/// The rays of a tile: the front of each ray, and the sample where it ends.
 struct Fronts {
     of_ray: [Accumulator<f64>; RAYS],
     farthest: [f64; RAYS],
-    /// The planes of each packet on which values were dear.
+    /// The planes of each packet on which values were expensive.
     asked: [Vec<Asked>; RAYS / LANES],
 }
 
@@ -122,7 +122,7 @@ impl Fronts {
         fronts
     }
 
-    /// Hands the packets what is theirs.
+    /// Copies the results to the packets.
     fn hand_over(self, packets: &mut [Packet<'_, '_>]) {
         for (packet, asked) in packets.iter_mut().zip(self.asked) {
             packet.asked = asked;
@@ -136,7 +136,7 @@ impl Fronts {
         }
     }
 
-    /// Rays of a packet that have not ended before sample k.
+    /// The lanes of a packet whose rays have not ended before sample k.
     #[inline(always)]
     fn open<S: Simd>(&self, simd: S, packet: usize, k: f64) -> mask64x8<S> {
         f64x8::from_slice(simd, &self.farthest[LANES * packet..][..LANES]).simd_ge(k)
@@ -170,7 +170,7 @@ pub(super) fn cast_waiting<S: Simd, F: Reader<S>>(
     fronts.hand_over(packets);
 }
 
-/// The place at which a packet goes on: which of its ranges, and the earliest sample.
+/// The place at which a packet continues: the index of its range, and the earliest sample.
 type Next = (usize, i64);
 
 /// Packets whose samples wait for each other.
@@ -182,7 +182,7 @@ pub(super) struct Packets<'p, 'v, S: Simd, F> {
 }
 
 impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
-    /// Visits all samples and shows what is seen eight at a time.
+    /// Visits all samples and shades the visible ones eight at a time.
     #[inline(always)]
     fn run(&self, fronts: &mut Fronts, look: &mut StyleShader<'_, S>, counts: &mut Counts) {
         let mut waiting = SampleQueue::new();
@@ -200,8 +200,8 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
         }
     }
 
-    /// Visits samples of a packet, the nearest plane first. Returns where it goes on, if it stops because of rays that seem to
-    /// have ended.
+    /// Visits samples of a packet, the nearest plane first. Returns the place at which to continue, if it stops because
+    /// all rays seem to have ended.
     #[inline(always)]
     fn follow(
         &self,
@@ -220,10 +220,11 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
         let walk = RayLanes::new(simd, rays, self.reader);
         let one = f64x8::splat(simd, 1.0);
         let nearest: f64x8<S> = rays.ends[0].simd_into(simd);
-        // About what a ray lets through when all that waits is shown. Below the limit it may have ended by then.
+        // The approximate transmittance of each ray after all waiting samples. Below the limit the ray may have ended
+        // by then.
         let (mut through, limit) = (one - fronts.opacity(simd, packet), 1.0 - self.prepared.stop_at);
         let mut ahead = Lookahead::new(simd);
-        // What lay beyond where it stopped is asked for once more.
+        // Samples beyond the place where it stopped are evaluated again.
         while fronts.asked[packet].pop_if(|&mut (k, _)| k >= earliest).is_some() {}
         for (range, &[first, last]) in rays.together.iter().enumerate().skip(first_range) {
             for group in (first.max(earliest)..=last).step_by(AHEAD) {
@@ -241,7 +242,7 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
                     };
                     let late = place.visible & through.simd_le(limit).to_bitmask();
                     if 2 * late.count_ones() > place.visible.count_ones() && plane > earliest {
-                        // Most of what would join those that wait comes after the end of its ray.
+                        // Most of the samples that would join the queue lie beyond the end of their ray.
                         return Some((range, plane));
                     }
                     waiting.push(packet, k, walk.places(k), &place);
@@ -259,7 +260,7 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
         None
     }
 
-    /// The index positions of samples of any rays, in the lanes `asked`; the origin in the others.
+    /// The index positions of samples of any rays, in the lanes `asked`. The other lanes hold the origin.
     #[inline(always)]
     pub(super) fn positions_of(&self, rays: &[u8; LANES], k: f64x8<S>, asked: u64) -> Vec3<f64x8<S>> {
         let mut p = [[0.0; LANES]; 3];
@@ -277,7 +278,8 @@ impl<S: Simd, F: Reader<S>> Packets<'_, '_, S, F> {
         vector(self.simd, p)
     }
 
-    /// Shows samples and lays them behind what is in front of them. Two places call it, so it is compiled apart from them.
+    /// Shades samples and composites them behind the front. It is called from two places, so it is compiled once, apart
+    /// from them.
     #[inline(never)]
     fn show_batch(&self, batch: &Batch<S>, look: &mut StyleShader<'_, S>, fronts: &mut Fronts, counts: &mut Counts) {
         self.simd.vectorize(

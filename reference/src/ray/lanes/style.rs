@@ -1,4 +1,4 @@
-//! Styles in lanes (Bruckner and Gröller 2007), with what a sample has to know of the one before it on its ray.
+//! Styles in lanes (Bruckner and Gröller 2007), with the normal of the previous sample on each ray.
 
 use super::normal::shading;
 use super::sample_queue::{Batch, Packets};
@@ -23,18 +23,18 @@ pub(super) struct StyleShader<'p, S: Simd> {
     sights: [Row; RAYS],
     /// v in eye space, and the smallest sample beyond `near`.
     eyes: [Row; RAYS],
-    /// From the eye's frame to that of the sphere: w and the scale of each ray; none where they are one.
+    /// Rotation from the eye's frame to that of the sphere: w and the scale for each ray; none if the frames are equal.
     turns: Option<[Row; RAYS]>,
     /// From world to eye space.
     axes: [Vec3<f64x8<S>>; 3],
     previous: PreviousNormals,
 }
 
-/// The last sample of each ray that was asked for a normal.
+/// The last sample of each ray for which a normal was evaluated.
 struct PreviousNormals {
-    /// Which one; NaN where there was none.
+    /// The sample's k; NaN before the first.
     k: [f64; RAYS],
-    /// N, and 1 where there is one, else 0.
+    /// N, and 1 if there is a normal, else 0.
     n: [Row; RAYS],
 }
 
@@ -52,15 +52,15 @@ pub(super) struct ShadedLanes<S: Simd> {
 /// The work of a batch, by lanes.
 pub(super) struct BatchCounts {
     without_normal: u64,
-    /// Lanes that had to have the gradient of the sample before too.
+    /// Lanes that also needed the gradient of the previous sample.
     before: u64,
-    /// Lanes that had to have the Hessian.
+    /// Lanes that needed the Hessian.
     hessians: u64,
     blends: lanes::Blends,
 }
 
 impl BatchCounts {
-    /// Counts it for the lanes that are shown.
+    /// Adds the work of the lanes that are shown to the counts.
     #[inline(always)]
     pub(super) fn add(&self, shown: u64, counts: &mut Counts) {
         counts.gradients += u64::from(shown.count_ones() + (shown & self.before).count_ones());
@@ -100,7 +100,8 @@ impl<'p, S: Simd> StyleShader<'p, S> {
         }
     }
 
-    /// κ_v from the normals of the samples before ([STF-5]), and remembers these. With the lanes that lacked one.
+    /// κ_v from the normals of the previous samples ([STF-5]). Remembers the normals of these samples. Returns also the
+    /// lanes whose previous normal was missing.
     #[inline(always)]
     fn kappa<F: Reader<S>>(
         &mut self,
@@ -119,7 +120,7 @@ impl<'p, S: Simd> StyleShader<'p, S> {
         let own = rows([n.x, n.y, n.z, has.select(one, zero)]);
         let mut of_before = [f64x4::splat(simd, 0.0); LANES];
         let mut k_before = [f64::NAN; LANES];
-        // In their order: the sample before may be one of the batch.
+        // Lanes are taken in order, because the previous sample may be in the same batch.
         for lane in 0..batch.asked.count_ones() as usize {
             let ray = usize::from(batch.rays[lane]) % RAYS;
             k_before[lane] = self.previous.k[ray];
@@ -148,7 +149,7 @@ impl<'p, S: Simd> StyleShader<'p, S> {
         (curvature_along_ray::kappa(tile.prepared.object.turn, n, n_before, both, step), fetched)
     }
 
-    /// N in the frame of the sphere, of which two coordinates are looked up; N = v where there is none ([PREC-3]).
+    /// Two coordinates of N in the frame of the sphere, for the look-up. N = v if there is no normal ([PREC-3]).
     #[inline(always)]
     fn on_sphere(&self, rays: &[u8; LANES], n: Vec3<f64x8<S>>, has: mask64x8<S>) -> [f64x8<S>; 2] {
         let (mut x, mut y, mut z) = (n.dot(self.axes[0]), n.dot(self.axes[1]), n.dot(self.axes[2]));
@@ -168,7 +169,7 @@ impl<'p, S: Simd> StyleShader<'p, S> {
         }
     }
 
-    /// Shades the samples of a batch. Other lanes hold anything.
+    /// Shades the samples of a batch. The other lanes hold arbitrary numbers.
     #[inline(always)]
     pub(super) fn show<F: Reader<S>>(&mut self, tile: &Packets<'_, '_, S, F>, batch: &Batch<S>) -> ShadedLanes<S> {
         let (prepared, styled, place) = (tile.prepared, self.styled, &batch.place);
@@ -203,17 +204,17 @@ impl<'p, S: Simd> StyleShader<'p, S> {
                     Some(seconds) => seconds,
                     None => tile.reader.seconds(&batch.at, with_normal),
                 };
-                // H's own field may have none where that of the normal has one.
+                // The Hessian's own field may have no normal where the shading field has one.
                 let own = with_normal & g.length().simd_gt(prepared.object.no_normal_below);
                 kappa = own.select(curvature::along_view(g, h, v, prepared.object.outside), zero);
             }
             tau = contour.tau(kappa, magnitude);
-            // With τ = 0 nothing is pushed.
+            // If τ = 0, nothing is pushed.
             (x, y) = contour::push(x, y, n_dot_v, (asked & has).select(tau, zero));
         }
         let blends = styled.index.blends(place, prepared.object.function.last());
         let [r, g, b, alpha_d] = styled.spheres.lookup_lanes(&blends, place, x, y);
-        // Lanes without a sample count as α_u = 0, which needs no power.
+        // Lanes without a sample count as α_u = 0, which avoids a power.
         let alpha_u = asked.select(place.alpha_u, zero);
         let share = transparency::share(styled.transparency, alpha_u, n_dot_v, tau, magnitude);
         let counted = BatchCounts { without_normal: !has.to_bitmask(), before, hessians, blends };

@@ -3,18 +3,18 @@
 use crate::number::{Real, Vec3};
 use drypoint_scene::view::View;
 
-/// The attributes of a visible sample beyond its value. Those that the scene does not ask for keep their neutral values.
+/// The attributes of a visible sample beyond its value. Attributes that the scene does not need have neutral values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SampleAttributes<R> {
     /// Eye depth.
     pub(crate) depth: R,
     /// World gradient, times the power of two of [SPACE-4].
     pub(crate) gradient: Vec3<R>,
-    /// N in world space; none where the gradient is negligible ([PREC-3]) or not asked for.
+    /// N in world space; none if the gradient is negligible ([PREC-3]) or not needed.
     pub(crate) normal: Option<Vec3<R>>,
     /// |g| of [VAL-2], in [0, 1].
     pub(crate) magnitude: R,
-    /// The scene's κ; 0 where there is no normal.
+    /// The scene's κ; 0 if there is no normal.
     pub(crate) kappa: R,
     /// κ₁ and κ₂.
     pub(crate) principal: [R; 2],
@@ -36,7 +36,7 @@ pub(crate) struct ViewDirs<R> {
     pub(crate) v: Vec3<R>,
     /// v in eye space.
     pub(crate) v_eye: Vec3<R>,
-    /// Ĥ in world space, where there is Phong shading; else 0.
+    /// Ĥ in world space if there is Phong shading, else 0.
     pub(crate) half: Vec3<R>,
 }
 
@@ -50,7 +50,7 @@ impl<R: Real> EyeAxes<R> {
         Self([view.right, view.up, -view.forward].map(Vec3::from_glam))
     }
 
-    /// N in eye space; a sample without a normal has N = v ([PREC-3]).
+    /// N in eye space. A sample without a normal has N = v ([PREC-3]).
     #[inline]
     pub(crate) fn normal(&self, attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> Vec3<R> {
         attributes.normal.map_or(dirs.v_eye, |n| Vec3::new(n.dot(self.0[0]), n.dot(self.0[1]), n.dot(self.0[2])))

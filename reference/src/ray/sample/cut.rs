@@ -1,4 +1,4 @@
-//! Cuts: places where a ray comes out of what clip planes cut away ([RAY-8]).
+//! Cuts: places where a ray leaves the region that clip planes cut away ([RAY-8]).
 
 use super::{EyeAxes, SampleAttributes, ViewDirs};
 use crate::number::{Real, Vec3};
@@ -8,7 +8,7 @@ use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::shot::{Cap, Clipping, SphereFrame};
 use drypoint_scene::style::Style;
 
-/// Clip planes and their caps, ready for rays.
+/// Clip planes and their caps, prepared for rays.
 pub(crate) struct PreparedClip<R> {
     pub(crate) planes: ClipPlanes,
     caps: Vec<PreparedCap<R>>,
@@ -17,18 +17,18 @@ pub(crate) struct PreparedClip<R> {
 
 /// A cap.
 enum PreparedCap<R> {
-    /// A straight linear colour, and the factor of a cut's opacity.
+    /// A straight linear colour, and the factor of the opacity on a cut.
     Color([R; 3], R),
     /// A lit sphere.
     Style(SphereMap),
 }
 
-/// A cut as a ray sees it.
+/// A cut, seen along a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CutFace<R> {
     /// The plane's normal, turned to the eye.
     pub(crate) normal: Vec3<R>,
-    /// The straight linear colour of the cap, and the factor of a cut's opacity; none: the cut's own colour.
+    /// The straight linear colour of the cap, and the factor of the opacity. None if the cut shows its own colour.
     cap: Option<([R; 3], R)>,
 }
 
@@ -44,7 +44,7 @@ impl<R: Real> PreparedClip<R> {
     /// Prepares the planes of a shot with the styles of their caps, in their order.
     ///
     /// # Errors
-    /// Another number of styles than the caps name.
+    /// The number of styles differs from the number that caps name.
     pub(crate) fn new(clipping: &Clipping, styles: &[Style]) -> Result<Self, RenderError> {
         let named = clipping.styles.len();
         if named != styles.len() {
@@ -58,7 +58,7 @@ impl<R: Real> PreparedClip<R> {
         Ok(Self { planes: clipping.planes.clone(), caps, frame: clipping.frame })
     }
 
-    /// The cut at a plane, given by its place in the list, on a ray with these directions.
+    /// The cut at a plane, given by its index, on a ray with these directions.
     pub(crate) fn face(&self, plane: usize, dirs: &ViewDirs<R>, eye_axes: &EyeAxes<R>) -> CutFace<R> {
         let plane = &self.planes.0[plane];
         let n = Vec3::<R>::from_glam(plane.normal);
@@ -78,13 +78,13 @@ impl<R: Real> PreparedClip<R> {
 }
 
 impl<R: Real> CutFace<R> {
-    /// The attributes of a place on the cut, of those that the field has there: N is the plane's normal, and κ = 0.
+    /// The attributes of a place on the cut: those of the field, except that N is the plane's normal, and κ = 0.
     #[inline]
     pub(crate) fn attributes(&self, of_field: SampleAttributes<R>) -> SampleAttributes<R> {
         SampleAttributes { normal: Some(self.normal), kappa: R::ZERO, ..of_field }
     }
 
-    /// The straight colour and the opacity of a sample on the cut, of its own ones.
+    /// The straight colour and the opacity of a sample on the cut, from those of the sample itself.
     #[inline]
     pub(crate) fn shade(&self, (rgb, alpha): ([R; 3], R)) -> ([R; 3], R) {
         self.cap.map_or((rgb, alpha), |(cap, opacity)| (cap, alpha * opacity))

@@ -13,16 +13,16 @@ use drypoint_scene::shot::{KappaSource, SampleQuery};
 pub(crate) struct Sample<R> {
     /// k.
     pub(crate) k: i64,
-    /// Its place in the field.
+    /// The sample's place in the field.
     pub(crate) at: CellPosition<R>,
-    /// The value there.
+    /// The sample's value.
     pub(crate) s: R,
 }
 
-/// The last sample of a ray that was asked for a normal.
+/// The last sample of a ray for which a normal was evaluated.
 #[derive(Clone, Copy)]
 pub(crate) enum Previous<R> {
-    /// There was none.
+    /// There is no such sample.
     None,
     /// The sample has no normal ([PREC-3]).
     WithoutNormal(i64),
@@ -37,7 +37,7 @@ pub(crate) struct Evaluator<'p, 'v, R: Real, S> {
     pub(crate) ray: IndexRay<R>,
     pub(crate) dirs: ViewDirs<R>,
     pub(crate) previous: Previous<R>,
-    /// The first sample behind a cut ([RAY-8]); none: no cut.
+    /// The first sample behind a cut ([RAY-8]), if there is one.
     cut: Option<CutSample<R>>,
 }
 
@@ -57,16 +57,16 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         Self { object, sampler, ray, dirs, previous: Previous::None, cut }
     }
 
-    /// The cut on which sample k lies; none: on none.
+    /// The cut on which sample k lies, if there is one.
     #[inline(always)]
     pub(crate) fn cut_at(&self, k: i64) -> Option<CutFace<R>> {
         self.cut.filter(|cut| cut.k == k).map(|cut| cut.face)
     }
 
-    /// Adds what is asked for to the attributes of a sample that are known.
+    /// Adds the quantities of a query to the known attributes of a sample.
     ///
-    /// Attributes go in and out as values, so that those of a scene that needs few of them stay in registers. On a cut
-    /// they are the field's, except κ, which is 0 there.
+    /// Attributes are passed and returned by value, so that those of a scene that needs few of them stay in registers.
+    /// On a cut they are the field's, except that κ is 0.
     #[inline(always)]
     pub(crate) fn evaluate(
         &mut self,
@@ -77,7 +77,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
     ) -> SampleAttributes<R> {
         let Sample { k, at, .. } = sample;
         let mut attributes = known;
-        // A Hessian brings the gradient of its own field, which often is the one that shades.
+        // A Hessian comes with the gradient of its own field, which often is the shading gradient.
         let together = query.gradient && query.hessian && self.sampler.has_one_gradient();
         let second = if together { Some(self.sampler.hessian_at(at)) } else { None };
         if query.gradient {
@@ -90,7 +90,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
             }
             attributes.normal = self.normal(g);
         }
-        // Curvatures, of samples that have a normal.
+        // Curvatures, for samples that have a normal.
         if let Some(n) = attributes.normal {
             if query.hessian {
                 let second = second.unwrap_or_else(|| self.sampler.hessian_at(at));
@@ -109,7 +109,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         attributes
     }
 
-    /// Evaluates what is asked for at a depth on the ray that need not be a sample's.
+    /// Evaluates a query at a depth on the ray that need not be a sample's.
     pub(crate) fn evaluate_at_depth(
         &self,
         depth: f64,
@@ -151,13 +151,13 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         attributes
     }
 
-    /// The normal that shades, seen along the ray ([NORM-1]).
+    /// The shading normal, seen along the ray ([NORM-1]).
     #[inline]
     fn normal(&self, g: Vec3<R>) -> Option<Vec3<R>> {
         self.object.normal(g, self.dirs.v)
     }
 
-    /// κ_v from the normal of the sample before on this ray ([STF-5]); 0 where there is none.
+    /// κ_v from the normal of the previous sample on this ray ([STF-5]); 0 if it has no normal.
     fn kappa_along_ray(&mut self, k: i64, n: Vec3<R>, counts: &mut Counts) -> R {
         let before = match self.previous {
             Previous::Normal(at, normal) if at == k - 1 => Some(normal),
@@ -178,8 +178,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         )
     }
 
-    /// Curvatures from the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]). Where the Hessian's own field has no normal, `known`
-    /// is returned.
+    /// Curvatures from the Hessian: κ_v ([CUR-2]), κ₁ and κ₂ ([CUR-1]). Returns `known` if the Hessian's own field has
+    /// no normal.
     #[inline(always)]
     fn curvatures(
         &self,
@@ -192,7 +192,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         counts.hessians += 1;
         let (mut kappa, mut principal) = known;
         if g.length().exceeds(object.no_normal_below) {
-            // Of a moved field: g' = L_Tᵀg and H' = L_TᵀHL_T ([VS-2]).
+            // For a moved field: g' = L_Tᵀg and H' = L_TᵀHL_T ([VS-2]).
             let (g, h) = object.moved.as_ref().map_or((g, h), |moved| (moved.apply(g), moved.congruence(h)));
             if query.kappa == KappaSource::Exact {
                 kappa = curvature::along_view(g, h, self.dirs.v, object.outside);
@@ -211,7 +211,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         Vec3::from_glam(origin + along * depth)
     }
 
-    /// The index position at a depth, moved into the box where rounding leaves it.
+    /// The index position at a depth, clamped to the box against rounding.
     pub(crate) fn inside(&self, depth: f64) -> Vec3<R> {
         let (p, [lo, hi]) = (self.at(depth), self.object.ends);
         Vec3::new(p.x.max(lo.x).min(hi.x), p.y.max(lo.y).min(hi.y), p.z.max(lo.z).min(hi.z))

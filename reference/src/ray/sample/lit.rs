@@ -1,5 +1,5 @@
-//! The light on a colour, at a sample or on an iso-surface: by Blinn–Phong, in tones or by a table, and black on
-//! silhouettes.
+//! The light on a colour at a sample or on an iso-surface: Blinn–Phong, tones or a lighting function. Silhouettes are
+//! black.
 
 use super::{SampleAttributes, ViewDirs};
 use crate::interactive_volume_illustration::{SilhouetteTest, Toon};
@@ -16,7 +16,7 @@ pub(crate) struct Lit<R> {
 
 /// A reflection of light.
 enum Model<R> {
-    /// Not at all.
+    /// No shading.
     Flat,
     /// [STF-11].
     Phong(Phong<R>),
@@ -38,7 +38,7 @@ impl<R: Real> Lit<R> {
         Self { model, silhouette: lit.silhouette.map(SilhouetteTest::new) }
     }
 
-    /// Ĥ of Blinn–Phong and of a lighting function; 0 where nothing reads it.
+    /// Ĥ of Blinn–Phong and of a lighting function; 0 for other models.
     pub(crate) fn half_vector(&self, v: Vec3<R>) -> Vec3<R> {
         match &self.model {
             Model::Phong(phong) => phong.half_vector(v),
@@ -49,8 +49,8 @@ impl<R: Real> Lit<R> {
 
     /// The colour of a place seen from v, with Ĥ of [`Lit::half_vector`].
     ///
-    /// Without a normal it has the tone of N = v and is on no silhouette ([PREC-3]), but is unshaded by Blinn–Phong, whose
-    /// highlight would be on every flat interior ([STF-11]).
+    /// Without a normal the place has the tone of N = v and is on no silhouette ([PREC-3]). Blinn–Phong then leaves it
+    /// unshaded, because its highlight would cover every flat interior ([STF-11]).
     #[inline]
     pub(crate) fn color(&self, c_u: [R; 3], normal: Option<Vec3<R>>, [v, half]: [Vec3<R>; 2]) -> [R; 3] {
         if self.is_black(normal, v) {
@@ -64,12 +64,12 @@ impl<R: Real> Lit<R> {
         }
     }
 
-    /// s_α of a lighting function at a normal; none under another model.
+    /// s_α of a lighting function at a normal. Returns none for other models.
     pub(crate) fn opacity_enhancement(&self, n: Vec3<R>, half: Vec3<R>) -> Option<R> {
         if let Model::Function(function) = &self.model { Some(function.reflectance(n, half).opacity) } else { None }
     }
 
-    /// The colour and the opacity of a sample. A lighting function changes opacities, too, where there is a normal.
+    /// The colour and the opacity of a sample. A lighting function also changes the opacity if there is a normal.
     #[inline]
     pub(crate) fn shade(
         &self,
@@ -86,7 +86,7 @@ impl<R: Real> Lit<R> {
         (rgb, function.opacity(alpha_u, &reflectance, attributes.magnitude))
     }
 
-    /// Whether a place is black since it lies on a silhouette.
+    /// Whether a place is black because it lies on a silhouette.
     #[inline]
     fn is_black(&self, normal: Option<Vec3<R>>, v: Vec3<R>) -> bool {
         self.silhouette.is_some_and(|silhouette| silhouette.is_black(normal.map_or(R::ONE, |n| n.dot(v))))

@@ -1,4 +1,4 @@
-//! A sample: what it is asked for, what is found, and which colour and opacity that gives. Nothing here composites.
+//! A sample: its query, its attributes, and the resulting colour and opacity. Compositing is elsewhere.
 
 mod attributes;
 mod cut;

@@ -1,13 +1,13 @@
 //! The needs of samples beyond their value.
 //!
-//! The loop over samples is compiled for values alone and for anything else: quantities of few scenes would cost unshaded
-//! pictures the registers that they compute in.
+//! The loop over samples is compiled twice, for values alone and for everything else. Quantities that few scenes need
+//! would otherwise cost unshaded pictures registers.
 
 use super::PreparedObject;
 use crate::number::Real;
 use drypoint_scene::shot::SampleQuery;
 
-/// The need of a shot, which decides what it is cast by.
+/// The need of a shot, by which the compiled loop is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Needs {
     /// The value alone: an unshaded picture.
@@ -19,7 +19,7 @@ pub(crate) enum Needs {
 }
 
 impl Needs {
-    /// The least that is enough; `more` is [`Need::MORE`].
+    /// The least need that is sufficient. `more` is [`Need::MORE`].
     pub(crate) fn new(query: SampleQuery, more: bool) -> Self {
         match (query, more) {
             (SampleQuery::VALUE, false) => Self::Value,
@@ -29,10 +29,10 @@ impl Needs {
     }
 }
 
-/// A need that the loop is compiled for.
+/// A need for which the loop is compiled.
 pub(crate) trait Need {
-    /// Whether there can be more than a colour for each value: a function over two quantities or from a table, |g|,
-    /// styles, layers, and compositing of encoded colours.
+    /// Whether more may be needed than a colour for each value: a function over two quantities or from a table, |g|,
+    /// styles, layers, or encoded compositing.
     const MORE: bool;
 
     /// The query of visible samples.

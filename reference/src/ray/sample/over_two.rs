@@ -1,4 +1,4 @@
-//! Samples of a transfer function over two quantities ([STF-4]): what is asked of them, and in which order.
+//! Samples of a transfer function over two quantities ([STF-4]), with the order in which quantities are evaluated.
 
 use crate::field::Field;
 use crate::labels::Labels;
@@ -15,7 +15,7 @@ use drypoint_scene::math;
 use drypoint_scene::shot::{Axis, LabelLookup, Object, SampleQuery};
 use drypoint_scene::transfer::Rows;
 
-/// A function over two quantities, with what measures them.
+/// A function over two quantities, with the measures of these quantities.
 pub(crate) struct OverTwo<'v, R> {
     plane: TransferPlane<R>,
     measures: [Box<dyn AxisMeasure<R> + 'v>; 2],
@@ -29,8 +29,8 @@ impl<'v, R: Real> OverTwo<'v, R> {
     /// Prepares a function from its nodes and rows.
     ///
     /// # Errors
-    /// Nodes that make no function, a label volume or a further volume that was not handed over or cannot be read, a label
-    /// that no voxel has.
+    /// The nodes do not make a function. A label volume or a further volume was not handed over or cannot be read. No
+    /// voxel has a label.
     pub(crate) fn new(
         (at, opacity): (&[f64], &[f64]),
         rows: &Rows,
@@ -59,7 +59,7 @@ impl<'v, R: Real> OverTwo<'v, R> {
         Ok(Self { plane, measures, first, rest })
     }
 
-    /// The place of a sample between the nodes; none where it is transparent.
+    /// The place of a sample between the nodes. Returns none if the sample is transparent.
     #[inline]
     pub(crate) fn locate(&self, here: &SampleQuantities<R>) -> Option<NodePatch<R>> {
         let [x, y] = &self.measures;

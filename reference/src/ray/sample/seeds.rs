@@ -1,4 +1,4 @@
-//! A sample with its seeds: s of each halo ([HALO-2], [HALO-3]).
+//! The seeds of a sample: s of each halo ([HALO-2], [HALO-3]).
 
 use super::{Evaluator, EyeAxes, Sample, SampleAttributes};
 use crate::field::Sampler;
@@ -10,7 +10,8 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec3;
 
 impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
-    /// Adds the seeds of a sample: `add` gets the places of halos with s > 0, and s. `h` has a place for each halo.
+    /// Adds the seeds of a sample. `add` receives the index of each halo with s > 0, and s. `h` has an entry for each
+    /// halo.
     #[inline]
     pub(crate) fn seed(
         &mut self,
@@ -20,7 +21,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         counts: &mut Counts,
         mut add: impl FnMut(usize, f64),
     ) {
-        // h_v, h_l and h_p, and with a function over two quantities what α_u needs.
+        // h_v, h_l and h_p, and for a function over two quantities the quantities of α_u.
         let position = self.ray.position(sample.k);
         let mut attributes = SampleAttributes::neutral();
         let reads = seeds.reads_opacity;
@@ -39,7 +40,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         if !any {
             return;
         }
-        // s, of samples that have a normal.
+        // s, for samples that have a normal.
         let rest = if asked { seeds.rest } else { seeds.query };
         let attributes = self.evaluate(sample, rest, attributes, counts);
         if attributes.normal.is_none() {
@@ -64,7 +65,8 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         }
     }
 
-    /// α_u of a sample, and whether a function over two quantities asked for attributes, which are known then.
+    /// α_u of a sample. The flag tells whether a function over two quantities evaluated its query, whose attributes are
+    /// then known.
     #[inline]
     fn alpha_u(&mut self, sample: Sample<R>, attributes: &mut SampleAttributes<R>, counts: &mut Counts) -> (f64, bool) {
         let object = self.object;

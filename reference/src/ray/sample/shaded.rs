@@ -8,11 +8,11 @@ use crate::transfer::NodePlace;
 use crate::transfer::over::SampleQuantities;
 use drypoint_scene::counts::Counts;
 
-/// Straight colour and opacity per reference length, and the attributes of the field from which they are.
+/// Straight colour and opacity per reference length, and the field's attributes from which they were computed.
 pub(crate) type Shaded<R> = (([R; 3], R), SampleAttributes<R>);
 
 impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
-    /// Evaluates and shades a sample of a function over the value, at a place where it can be seen.
+    /// Evaluates and shades a visible sample of a function over the value.
     #[inline(always)]
     pub(crate) fn shaded<N: Need>(
         &mut self,
@@ -33,7 +33,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         (cut.map_or(shaded, |cut| cut.shade(shaded)), attributes)
     }
 
-    /// Evaluates and shades a sample of any function; none where it is transparent.
+    /// Evaluates and shades a sample of any function. Returns none if the sample is transparent.
     pub(crate) fn shaded_by_any(&mut self, sample: Sample<R>, counts: &mut Counts) -> Option<Shaded<R>> {
         match &self.object.over_two {
             Some(over_two) => self.shaded_over_two(over_two, sample, counts),
@@ -44,8 +44,8 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         }
     }
 
-    /// Straight colour and opacity of a visible sample before light falls on them, with attributes that need not be its own:
-    /// of two objects that meet, those of one shade both ([VS-4]). `own` are the sample's.
+    /// Unlit straight colour and opacity of a visible sample. The attributes need not be its own: if two objects meet,
+    /// the attributes of one shade both ([VS-4]). `own` are the sample's.
     pub(crate) fn unlit(
         &self,
         sample: Sample<R>,
@@ -81,8 +81,8 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         }
     }
 
-    /// Evaluates and shades a sample of a function over two quantities: what they need is asked first, and the rest only
-    /// where α_u > 0.
+    /// Evaluates and shades a sample of a function over two quantities. These quantities are evaluated first, the rest
+    /// only if α_u > 0.
     #[inline(always)]
     pub(crate) fn shaded_over_two(
         &mut self,

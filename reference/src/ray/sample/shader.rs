@@ -1,4 +1,4 @@
-//! Shaders: from the attributes of a visible sample to its straight colour and its opacity per reference length.
+//! Shaders, which map the attributes of a visible sample to its straight colour and its opacity per reference length.
 
 use super::{EyeAxes, Lit, SampleAttributes, ViewDirs};
 use crate::interactive_volume_illustration::ViewOpacity;
@@ -15,7 +15,7 @@ use drypoint_scene::style::Style;
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::View;
 
-/// A material ready for samples: how visible samples are coloured.
+/// A material prepared for samples, which gives visible samples their colour.
 pub(crate) enum SampleShader<R> {
     /// Colours, unshaded or shaded ([STF-11]).
     Regular {
@@ -35,17 +35,17 @@ pub(crate) struct Illustrated<R> {
     /// Linear straight colour of each node.
     pub(crate) colors: Vec<[R; 3]>,
     pub(crate) lit: Lit<R>,
-    /// None: opacities are as they are.
+    /// View-dependent opacity. None leaves opacities unchanged.
     pub(crate) view_opacity: Option<ViewOpacity>,
 }
 
-/// A style transfer function ready for samples.
+/// A style transfer function prepared for samples.
 pub(crate) struct Styled<R> {
     /// ift.
     pub(crate) index: StyleIndex,
     /// sft.
     pub(crate) spheres: Spheres<R>,
-    /// [STF-10]; none: each lookup reads the style itself.
+    /// [STF-10]; none if each lookup reads the style itself.
     pub(crate) detail: Option<Detail<R>>,
     /// [STF-7], [STF-8].
     pub(crate) contour: Option<Contour<R>>,
@@ -57,11 +57,12 @@ pub(crate) struct Styled<R> {
 }
 
 impl<R: Real> SampleShader<R> {
-    /// Prepares the material of a shot's object, with the styles that its function names, in their order, for a volume whose
-    /// smallest voxel side is `voxel` in world units.
+    /// Prepares the material of a shot's object. `styles` are those that its function names, in order. `voxel` is the
+    /// smallest voxel side of the volume, in world units.
     ///
     /// # Errors
-    /// Another number of styles than the function names; a material of the other kind of function.
+    /// The number of styles differs from the number that the function names, or the material is for the other kind of
+    /// function.
     pub(crate) fn new(
         object: &Object,
         view: &View,
@@ -95,12 +96,12 @@ impl<R: Real> SampleShader<R> {
         }
     }
 
-    /// The size of mip chains in memory; none without them.
+    /// The size of mip chains in bytes. Returns none without mip chains.
     pub(crate) fn mipmap_bytes(&self) -> Option<usize> {
         if let Self::Style(styled) = self { styled.spheres.mipmap_bytes() } else { None }
     }
 
-    /// Takes over what depends on the camera: the material of another one's shot, and its view.
+    /// Takes over the camera's data from the same shot seen by another camera.
     pub(crate) fn turn(&mut self, object: &Object, view: &View) {
         match (self, &object.material) {
             (Self::Regular { phong: Some(phong), .. }, Material::Regular(lit)) => {
@@ -114,7 +115,7 @@ impl<R: Real> SampleShader<R> {
         }
     }
 
-    /// Directions of a ray towards whose eye v points, in world and eye space.
+    /// Directions of a ray. v points to the eye, in world and in eye space.
     pub(crate) fn view_dirs(&self, v: Vec3<R>, v_eye: Vec3<R>) -> ViewDirs<R> {
         let half = match self {
             Self::Regular { phong: Some(phong), .. } => phong.half_vector(v),
@@ -124,8 +125,8 @@ impl<R: Real> SampleShader<R> {
         ViewDirs { v, v_eye, half }
     }
 
-    /// Straight colour and opacity per reference length. Place and attributes come as values: only the arm of styles then needs
-    /// them in memory.
+    /// Straight colour and opacity per reference length. Place and attributes are passed by value, so that only styles
+    /// need them in memory.
     #[inline(always)]
     pub(crate) fn shade(
         &self,
@@ -150,8 +151,8 @@ impl<R: Real> SampleShader<R> {
         }
     }
 
-    /// Straight colour and opacity per reference length before light falls on them. A style carries its own light: its
-    /// colour and opacity are those of [`SampleShader::shade`].
+    /// Unlit straight colour and opacity per reference length. A style includes its light, so its colour and opacity
+    /// are those of [`SampleShader::shade`].
     pub(crate) fn unlit(
         &self,
         place: impl Between<R>,
@@ -166,7 +167,7 @@ impl<R: Real> SampleShader<R> {
         }
     }
 
-    /// A colour and an opacity per reference length in the light of this material; a style adds nothing.
+    /// Applies the light of this material to a colour and an opacity per reference length. A style changes nothing.
     pub(crate) fn light(
         &self,
         (rgb, alpha): ([R; 3], R),
@@ -180,8 +181,8 @@ impl<R: Real> SampleShader<R> {
         }
     }
 
-    /// e of [VS-7], by which ghosting spares a sample: what illustrative styles and lighting functions enhance by; 0 for
-    /// every other material, and for a sample without a normal.
+    /// e of [VS-7], which protects a sample from ghosting: the enhancement by illustrative styles and lighting
+    /// functions. It is 0 for every other material, and for a sample without a normal.
     pub(crate) fn enhancement(&self, attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> R {
         match (self, attributes.normal) {
             (Self::Style(styled), Some(n)) if styled.transparency == Transparency::Illustrative => {
@@ -202,7 +203,7 @@ impl<R: Real> Illustrated<R> {
     fn light(&self, (c_u, alpha_u): ([R; 3], R), attributes: &SampleAttributes<R>, dirs: &ViewDirs<R>) -> ([R; 3], R) {
         let (rgb, alpha) = self.lit.shade(c_u, alpha_u, attributes, dirs);
         let alpha = match (self.view_opacity, attributes.normal) {
-            // |N·v| counts as 1 where there is no normal ([PREC-3]), and then the exponent is 1.
+            // |N·v| counts as 1 without a normal ([PREC-3]), and then the exponent is 1.
             (Some(view_opacity), Some(n)) => {
                 let corrected = |alpha, n_dot_v: f64| Correction::new(view_opacity.exponent(n_dot_v)).apply(alpha);
                 R::monotone([alpha, n.dot(dirs.v).abs()], |[alpha, n_dot_v]| corrected(alpha, n_dot_v))
@@ -234,7 +235,7 @@ impl<R: Real> Styled<R> {
         }
     }
 
-    /// τ; without contours T = 0, so it is 0 ([STF-9]).
+    /// τ. Without contours T = 0, so τ = 0 ([STF-9]).
     #[inline(always)]
     fn tau(&self, attributes: &SampleAttributes<R>) -> R {
         self.contour.as_ref().map_or(R::ZERO, |c| c.tau(attributes.kappa, attributes.magnitude))
@@ -249,7 +250,7 @@ impl<R: Real> Styled<R> {
         counts: &mut Counts,
     ) -> ([R; 3], R) {
         let n = frame::on_sphere(self.frame, self.eye_axes.normal(&attributes, dirs), dirs.v_eye);
-        // |N·v| counts as 1 where there is no normal ([PREC-3]).
+        // |N·v| counts as 1 without a normal ([PREC-3]).
         let n_dot_v = attributes.normal.map_or(R::ONE, |n| n.dot(dirs.v).abs());
         let tau = self.tau(&attributes);
         // A sample without a normal is on no contour, whatever the threshold.
@@ -262,7 +263,7 @@ impl<R: Real> Styled<R> {
             return ([R::ZERO; 3], R::ZERO);
         }
         let share = transparency::share(self.transparency, place.alpha_u(), n_dot_v, tau, attributes.magnitude);
-        // What follows would change no bit.
+        // The remaining operations would change no bit.
         if alpha_d == R::ONE {
             return ([r, g, b], share);
         }
@@ -275,11 +276,12 @@ pub(crate) trait Between<R: Real> {
     /// α_u, above 0.
     fn alpha_u(&self) -> R;
 
-    /// The colour between the nodes' linear straight colours, which interpolate by themselves ([VAL-3]).
+    /// The colour between the nodes' linear straight colours, which are interpolated independently of opacity
+    /// ([VAL-3]).
     fn color(&self, colors: &[[R; 3]]) -> [R; 3];
 
-    /// The style between the nodes' styles, looked up at (N_x, N_y): linear, premultiplied. `level` is that of
-    /// [`Detail::below_last`] in the mip chains; none: the styles themselves.
+    /// The style between the nodes' styles, looked up at (N_x, N_y): linear, premultiplied. `level` is the level of
+    /// [`Detail::below_last`] in the mip chains; none looks up the styles themselves.
     fn style(
         &self,
         index: &StyleIndex,
