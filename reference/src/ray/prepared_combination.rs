@@ -237,10 +237,14 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         apart.map(of).sum()
     }
 
-    /// Takes over what depends on the camera.
-    pub(super) fn turn(&mut self, shot: &Shot) {
+    /// Takes over what depends on the camera and on the size of the picture.
+    pub(super) fn turn(&mut self, shot: &Shot, camera: &Camera<'_>) {
         for (prepared, (_, object)) in self.parts.iter_mut().zip(shot.parts()) {
-            prepared.object.shader.turn(object, &shot.view);
+            prepared.object.shader.turn(object, camera);
+        }
+        let cutaways = shot.combination.iter().flat_map(|combination| &combination.cutaways);
+        for (prepared, &params) in self.cutaways.iter_mut().zip(cutaways) {
+            prepared.params = params;
         }
         self.reach = reach(&self.selections, &shot.view);
     }

@@ -190,11 +190,20 @@ impl<'a> Renderer<'a> {
         self.order == Order::Lanes
     }
 
-    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    /// Takes the camera, the lights, the size and the rays a pixel of another shot for the frames that follow. The shots may
+    /// differ in nothing but these and what follows from them: reaches of halos and of funnels in pixels. Lines inside the
+    /// volume stay those of the camera before.
     ///
     /// # Errors
-    /// Sample planes that fall together, seen from there.
+    /// Sample planes that fall together, seen from there; another size before the pixels of a picture.
     pub fn turn(&mut self, shot: &Shot) -> Result<(), RenderError> {
+        let size = match &self.ready {
+            Ready::F64(p) => p.view.size,
+            Ready::F32(p) => p.view.size,
+        };
+        if matches!(self.background, Backdrop::Pixels(_)) && shot.view.size != size {
+            return Err(RenderError::BackdropSize { size: shot.view.size });
+        }
         match &mut self.ready {
             Ready::F64(p) => turn(p, shot),
             Ready::F32(p) => turn(p, shot),
