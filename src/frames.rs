@@ -1,4 +1,22 @@
 //! Frames of a volume, by the reference or on a graphics card.
+//!
+//! ```
+//! use drypoint::frames::{Frames, ReferenceFrames};
+//! # use drypoint::job::Job;
+//! # use drypoint::scene::file::{Overrides, parse};
+//! # use std::num::NonZeroUsize;
+//! # let text = "drypoint = 1\n[volume]\nphantom = { name = \"torus\", size = 24 }\n[picture]\nsize = [60, 50]\n[transfer]\n";
+//! # let job = Job::load(parse(text, "torus.toml".as_ref(), &Overrides::default())?)?;
+//!
+//! // A coarse frame, which a viewer shows at once, then the exact one.
+//! let mut frames = ReferenceFrames::new(job.renderer()?, &job.scene);
+//! for shot in [job.coarse_shot(NonZeroUsize::new(8).unwrap())?, job.shot()?] {
+//!     frames.turn(&shot)?;
+//!     let (picture, _counts) = frames.frame(&|_share| ())?;
+//!     assert_eq!([picture.width, picture.height], shot.view.size);
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::Failure;
 use crate::job::render_failure;
@@ -24,10 +42,12 @@ pub trait Frames {
     /// Lines in a scene whose plan has none inside the volume.
     fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure>;
 
-    /// Takes the camera and the lights of another shot of the scene. See [`Shot::seen_from`].
+    /// Takes the camera and the lights of another shot of the scene ([`Shot::seen_from`]). The reference also takes the size
+    /// and the rays of a coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)), and prepares nothing anew.
     ///
     /// # Errors
-    /// A camera too far away.
+    /// A camera too far away. Another size or other rays on a graphics card, whose shader is compiled for them; another size
+    /// before a picture.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
 
     /// Draws a frame, with its own counts. `progress` hears the share that is done, from any thread; a frame is paused while it

@@ -235,6 +235,11 @@ impl Frames for GpuFrames {
     }
 
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
+        let compiled = |shot: &Shot| (shot.view.size, shot.rays_across, shot.refine_above.is_some());
+        if compiled(shot) != compiled(&self.uploaded.shot) {
+            let what = "frames on a graphics card have one size, and pixels of equal rays";
+            return Err(Failure::new(what, "--backend", "prepare frames of a scene of that size"));
+        }
         self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))
     }
 

@@ -54,7 +54,7 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
-use drypoint_scene::tables::{Background, Ids, Scene, StepAlong, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{Background, Ids, RaysPerPixel, Scene, StepAlong, VolumeSource, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -68,6 +68,7 @@ pub use painting::Painting;
 pub(crate) use provenance::provenance;
 use room::{no_room_for_content, room_for_halos, room_for_table};
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes, room_for_picture};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 pub use target::RenderTarget;
@@ -266,6 +267,20 @@ impl Job {
     /// A volume that is not drawn itself, a camera without direction, or a length without size.
     pub fn shot(&self) -> Result<Shot, Failure> {
         self.resolve(&self.scene, &self.plan, self.assets.function.as_ref(), self.view()?)
+    }
+
+    /// Returns the shot of a coarse frame: of the scene with `picture.size` divided by `n`, rounded up, and one ray a pixel.
+    /// Foci and brushes at pixels stay at the points that were seen there. See [`Frames::turn`](crate::frames::Frames::turn).
+    ///
+    /// # Errors
+    /// Same errors as [`Job::shot`].
+    pub fn coarse_shot(&self, n: NonZeroUsize) -> Result<Shot, Failure> {
+        let mut scene = self.scene.clone();
+        scene.picture.size = scene.picture.size.map(|side| side.div_ceil(n.get()));
+        scene.picture.samples = RaysPerPixel::Across(1);
+        let view = View::new(&scene.camera, self.volume.grid(), scene.picture.size);
+        let view = view.map_err(|error| view_failure(error, &scene))?;
+        self.resolve(&scene, &self.plan_of(&scene), self.assets.function.as_ref(), view)
     }
 
     /// Returns a renderer for any number of frames.

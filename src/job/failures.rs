@@ -56,6 +56,7 @@ pub(crate) fn render_failure(error: &RenderError, scene: &Scene) -> Failure {
         RenderError::NoFurtherVolume => ("transfer.over", "hand over the volume that it names"),
         RenderError::NoLabels => ("transfer.over", "name a label volume with volume.labels"),
         RenderError::NoSuchLabel { .. } => ("transfer.over", "name a label that the label volume has"),
+        RenderError::BackdropSize { .. } => ("picture.background", "give a colour, or draw frames of its size alone"),
         RenderError::NoObjects => ("object", "hand over the data of all its objects"),
         RenderError::ExactObjects => ("object", "leave the objects out, or compare with the finest settings"),
         RenderError::Motion => ("object", "move it less far, or scale it less"),

@@ -210,12 +210,12 @@ impl Stage {
         (shown, in_lanes)
     }
 
-    /// The pictures from several cameras, one after another, by one renderer that is turned.
-    pub(crate) fn render_turned(&self, views: &[View]) -> Vec<Shown> {
+    /// The pictures of several shots, one after another, by one renderer that is turned.
+    pub(crate) fn render_turned(&self, shots: &[Shot]) -> Vec<Shown> {
         let mut all = Vec::new();
         self.render_by(|mut renderer| {
-            for view in views {
-                renderer.turn(&self.resolved(view.clone())).unwrap();
+            for shot in shots {
+                renderer.turn(shot).unwrap();
                 let (picture, counts) = renderer.frame(&|_| {});
                 all.push(Shown { picture, counts });
             }

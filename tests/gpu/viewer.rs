@@ -7,6 +7,7 @@ use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::volume::Voxels;
+use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A scene of which every voxel can be seen, so that first samples are those of the box.
@@ -175,6 +176,18 @@ fn a_changed_scene_is_drawn_as_if_it_were_new() {
             assert!(draw(&mut frames) == *fresh, "{changed}");
         }
     }
+}
+
+/// A card's frames have one size and one number of rays: the shot of a coarse frame is refused, and changes nothing.
+#[test]
+fn a_coarse_frame_is_refused() {
+    let Some(gpu) = gpu() else { return };
+    let job = job(SCENE);
+    let mut frames = GpuFrames::new(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
+    let whole = frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
+    let failure = frames.turn(&job.coarse_shot(NonZeroUsize::new(2).unwrap()).unwrap()).unwrap_err().to_string();
+    assert!(failure.contains("frames on a graphics card have one size"), "{failure}");
+    assert_eq!(frames.frame(&|_| ()).unwrap().0, whole);
 }
 
 /// A frame that is stopped before it begins, or between its passes, has no picture, and the next one is whole.

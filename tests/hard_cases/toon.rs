@@ -212,7 +212,7 @@ fn a_turned_camera_takes_its_light_along() {
     });
     for shot in [function, surface] {
         let turned = shot.seen_along([-0.5, 0.6, 0.3]);
-        let shown = shot.render_turned(&[shot.view(), turned.view()]);
+        let shown = shot.render_turned(&[&shot, &turned].map(|seen| shot.resolved(seen.view())));
         assert_eq!(shown[0].bits(), shot.render().bits());
         assert_eq!(shown[1].bits(), turned.render().bits());
     }

@@ -6,6 +6,7 @@ mod common;
 mod along_ray;
 mod architecture;
 mod clips;
+mod coarse;
 mod coverage;
 mod generator;
 mod lanes;

@@ -16,7 +16,7 @@ fn a_camera_comes_back_to_its_picture() {
         let orbit = Orbit { frames: 5, degrees: 200.0, ..Orbit::default() };
         let away = orbit.view(&first, &shot.scene.camera, grid, 2);
         let still = shot.render();
-        let turned = shot.render_turned(&[first.clone(), away, first]);
+        let turned = shot.render_turned(&[first.clone(), away, first].map(|view| shot.resolved(view)));
         for back in [&turned[0], &turned[2]] {
             assert_eq!(back.bits(), still.bits(), "{seed}");
             assert_eq!(back.counts.samples, still.counts.samples, "{seed}");
@@ -54,7 +54,7 @@ fn a_turned_camera_sees_a_turned_volume() {
         let (shot, other) = (shot(volume.clone()), shot(turned.clone()));
         let orbit = Orbit { frames: 4, degrees: 360.0, ..Orbit::default() };
         let view = orbit.view(&shot.view(), &shot.scene.camera, &grid, 1);
-        let seen = shot.render_turned(&[view]).remove(0);
+        let seen = shot.render_turned(&[shot.resolved(view)]).remove(0);
         let still = other.render();
         assert!(seen.covered() > 40);
         // Positions of 10 voxels are off by 10⁻¹⁵ or so, and nothing here is steeper than 100 a voxel.

@@ -43,6 +43,12 @@ pub enum RenderError {
         /// The label.
         id: u32,
     },
+    /// A frame of another size than the picture behind it.
+    #[error("the picture behind the volume was not stretched to {} × {} pixels", size[0], size[1])]
+    BackdropSize {
+        /// The frame's size.
+        size: [usize; 2],
+    },
     /// The data of objects were not handed over.
     #[error("the shot has objects whose data were not handed over")]
     NoObjects,

@@ -58,7 +58,7 @@ pub(super) fn prepare<'a, R: Real>(
     let asks_samples = |layer| !matches!(layer, LayerKind::Beauty | LayerKind::Counts | LayerKind::Halo(_));
     let collects = shot.layers.iter().any(|&layer| asks_samples(layer));
     let encode = shot.blend_space == BlendSpace::Srgb;
-    let camera = Camera { view: &shot.view, rays_across: shot.rays_across, voxel: volume.grid().voxel() };
+    let camera = Camera::new(shot, volume.grid());
     let place = MovedGrid { grid: volume.grid().clone(), moved: None };
     let mut prepared = prepare_object((object, &shot.clipping), data, place, field, &camera, &mut fields, counts)?;
     let plain = matches!(prepared.shader, SampleShader::Regular { .. });
@@ -158,11 +158,18 @@ impl<'a, R: Real> Fields<'a, R> {
 }
 
 /// The properties of the picture's camera on which materials depend.
-pub(super) struct Camera<'c> {
-    pub(super) view: &'c View,
-    pub(super) rays_across: usize,
+pub(crate) struct Camera<'c> {
+    pub(crate) view: &'c View,
+    pub(crate) rays_across: usize,
     /// The smallest voxel side of `[volume]`, in world units.
-    pub(super) voxel: f64,
+    pub(crate) voxel: f64,
+}
+
+impl<'c> Camera<'c> {
+    /// The camera of a shot over the grid of `[volume]`.
+    fn new(shot: &'c Shot, grid: &Grid) -> Self {
+        Self { view: &shot.view, rays_across: shot.rays_across, voxel: grid.voxel() }
+    }
 }
 
 /// The place where a volume is drawn.
@@ -200,7 +207,7 @@ pub(super) fn prepare_object<'a, R: Real>(
     // The styles of caps follow those of the function.
     let of_function = data.styles.len().saturating_sub(clipping.styles.len());
     let (styles, of_caps) = data.styles.split_at(of_function);
-    let shader = SampleShader::new(object, camera.view, camera.rays_across, styles, camera.voxel)?;
+    let shader = SampleShader::new(object, camera, styles)?;
     if let Some(bytes) = shader.mipmap_bytes() {
         counts.bytes.insert("style_mipmaps".into(), bytes as u64);
     }
@@ -228,14 +235,18 @@ pub(super) fn prepare_object<'a, R: Real>(
     })
 }
 
-/// Takes over the camera's data from the same shot seen by another camera with the same lens and picture.
+/// Takes over the camera's data, the picture's size and its rays from the same shot with another camera, size or rays.
 pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Result<(), RenderError> {
-    within_planes(shot, prepared.object.volume.grid())?;
+    let grid = prepared.object.volume.grid();
+    within_planes(shot, grid)?;
+    let camera = Camera::new(shot, grid);
     prepared.eye_axes = EyeAxes::new(&shot.view);
-    let object = shot.background();
-    prepared.object.shader.turn(object, &shot.view);
+    prepared.object.shader.turn(shot.background(), &camera);
     if let Some(prepared) = &mut prepared.combination {
-        prepared.turn(shot);
+        prepared.turn(shot, &camera);
+    }
+    if let Some(halos) = &mut prepared.halos {
+        halos.list = PreparedHalos::list(shot);
     }
     if let (Some(prepared), Some(surface)) = (&mut prepared.surface, &shot.surface) {
         prepared.lit = Lit::new(&surface.lit);
@@ -244,6 +255,7 @@ pub(super) fn turn<R: Real>(prepared: &mut Prepared<'_, R>, shot: &Shot) -> Resu
         meshes.turn(&shot.meshes);
     }
     prepared.view = shot.view.clone();
+    (prepared.rays_across, prepared.refine_above) = (shot.rays_across, shot.refine_above);
     map_funnels(prepared, &mut Counts::default());
     Ok(())
 }

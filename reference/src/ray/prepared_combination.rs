@@ -239,10 +239,14 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         apart.map(of).sum()
     }
 
-    /// Takes over the camera's data from another shot.
-    pub(super) fn turn(&mut self, shot: &Shot) {
+    /// Takes over the camera's data from another shot, with lengths that follow from the picture's size.
+    pub(super) fn turn(&mut self, shot: &Shot, camera: &Camera<'_>) {
         for (prepared, (_, object)) in self.parts.iter_mut().zip(shot.parts()) {
-            prepared.object.shader.turn(object, &shot.view);
+            prepared.object.shader.turn(object, camera);
+        }
+        let cutaways = shot.combination.iter().flat_map(|combination| &combination.cutaways);
+        for (prepared, &params) in self.cutaways.iter_mut().zip(cutaways) {
+            prepared.params = params;
         }
         self.reach = reach(&self.selections, &shot.view);
     }

@@ -35,10 +35,7 @@ impl<'v> PreparedHalos<'v> {
         if halos.list.is_empty() {
             return Ok(None);
         }
-        let encode = shot.blend_space == BlendSpace::Srgb;
-        let is_watched = |i: usize| shot.layers.contains(&LayerKind::Halo(i));
-        let list = halos.list.iter().enumerate().map(|(i, halo)| PreparedHalo::new(halo, encode, is_watched(i)));
-        let list = list.collect();
+        let list = Self::list(shot);
         if shot.combination.is_some() && !halos.list.iter().any(|halo| halo.seed.can_seed()) {
             return Ok(Some(Self { list, seeds: None, skip: None }));
         }
@@ -67,6 +64,14 @@ impl<'v> PreparedHalos<'v> {
         };
         let skip = bricks.map(|bricks| BrickOccupancy::new(bricks, can_seed));
         Ok(Some(Self { list, seeds: Some(seeds), skip }))
+    }
+
+    /// The halos of a shot, in their order.
+    pub(super) fn list(shot: &Shot) -> Vec<PreparedHalo> {
+        let encode = shot.blend_space == BlendSpace::Srgb;
+        let is_watched = |i: usize| shot.layers.contains(&LayerKind::Halo(i));
+        let halos = shot.halos.list.iter().enumerate();
+        halos.map(|(i, halo)| PreparedHalo::new(halo, encode, is_watched(i))).collect()
     }
 
     /// Number of rays of the guard band that all halos need around the picture.

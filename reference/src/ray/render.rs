@@ -191,12 +191,20 @@ impl<'a> Renderer<'a> {
         self.order == Order::Lanes
     }
 
-    /// Takes the camera and the lights of another shot for the following frames. Nothing else may differ between the
-    /// shots.
+    /// Takes the camera, the lights, the size and the rays a pixel of another shot for the following frames. Nothing else
+    /// may differ between the shots, but for reaches of halos and of funnels in pixels. Lines inside the volume stay those
+    /// of the camera before.
     ///
     /// # Errors
-    /// Sample planes coincide as seen from the camera.
+    /// Sample planes coincide as seen from the camera, or the size differs from that of the picture behind the volume.
     pub fn turn(&mut self, shot: &Shot) -> Result<(), RenderError> {
+        let size = match &self.ready {
+            Ready::F64(p) => p.view.size,
+            Ready::F32(p) => p.view.size,
+        };
+        if matches!(self.background, Backdrop::Pixels(_)) && shot.view.size != size {
+            return Err(RenderError::BackdropSize { size: shot.view.size });
+        }
         match &mut self.ready {
             Ready::F64(p) => turn(p, shot),
             Ready::F32(p) => turn(p, shot),

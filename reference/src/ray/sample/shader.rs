@@ -5,6 +5,7 @@ use crate::interactive_volume_illustration::ViewOpacity;
 use crate::number::{Real, Vec3};
 use crate::ray::error::RenderError;
 use crate::ray::opacity::Correction;
+use crate::ray::prepare::Camera;
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
 use crate::transfer::{NodePatch, NodePlace};
@@ -13,7 +14,6 @@ use drypoint_scene::counts::Counts;
 use drypoint_scene::shot::{Illumination, Lighting, Material, Object, SphereFrame, StyleParams, Transparency};
 use drypoint_scene::style::Style;
 use drypoint_scene::transfer::Function;
-use drypoint_scene::view::View;
 
 /// A material prepared for samples, which gives visible samples their colour.
 pub(crate) enum SampleShader<R> {
@@ -57,19 +57,12 @@ pub(crate) struct Styled<R> {
 }
 
 impl<R: Real> SampleShader<R> {
-    /// Prepares the material of a shot's object. `styles` are those that its function names, in order. `voxel` is the
-    /// smallest voxel side of the volume, in world units.
+    /// Prepares the material of a shot's object. `styles` are those that its function names, in order.
     ///
     /// # Errors
     /// The number of styles differs from the number that the function names, or the material is for the other kind of
     /// function.
-    pub(crate) fn new(
-        object: &Object,
-        view: &View,
-        rays_across: usize,
-        styles: &[Style],
-        voxel: f64,
-    ) -> Result<Self, RenderError> {
+    pub(crate) fn new(object: &Object, camera: &Camera<'_>, styles: &[Style]) -> Result<Self, RenderError> {
         match (&*object.function, &object.material) {
             (Function::Regular(nodes), Material::Regular(lit)) => {
                 let colors = nodes.color.iter().map(|c| c.map(R::from_f64)).collect();
@@ -79,7 +72,7 @@ impl<R: Real> SampleShader<R> {
                 if names.len() != styles.len() {
                     return Err(RenderError::Styles { named: names.len(), given: styles.len() });
                 }
-                Ok(Self::Style(Styled::new(&nodes.color, style, styles, (view, rays_across), voxel)))
+                Ok(Self::Style(Styled::new(&nodes.color, style, styles, camera)))
             }
             _ => Err(RenderError::Material),
         }
@@ -101,8 +94,8 @@ impl<R: Real> SampleShader<R> {
         if let Self::Style(styled) = self { styled.spheres.mipmap_bytes() } else { None }
     }
 
-    /// Takes over the camera's data from the same shot seen by another camera.
-    pub(crate) fn turn(&mut self, object: &Object, view: &View) {
+    /// Takes over the camera's data from the same shot seen by another camera: lights, view, and the size of its pixels.
+    pub(crate) fn turn(&mut self, object: &Object, camera: &Camera<'_>) {
         match (self, &object.material) {
             (Self::Regular { phong: Some(phong), .. }, Material::Regular(lit)) => {
                 if let Lighting::Phong(params) = &lit.lighting {
@@ -110,7 +103,10 @@ impl<R: Real> SampleShader<R> {
                 }
             }
             (Self::Illustrated(illustrated), Material::Regular(lit)) => illustrated.lit = Lit::new(lit),
-            (Self::Style(styled), _) => styled.eye_axes = EyeAxes::new(view),
+            (Self::Style(styled), Material::Style(style)) => {
+                styled.detail = detail(style, camera);
+                styled.eye_axes = EyeAxes::new(camera.view);
+            }
             _ => {}
         }
     }
@@ -215,23 +211,17 @@ impl<R: Real> Illustrated<R> {
 }
 
 impl<R: Real> Styled<R> {
-    fn new(
-        of_node: &[usize],
-        style: &StyleParams,
-        styles: &[Style],
-        (view, rays_across): (&View, usize),
-        voxel: f64,
-    ) -> Self {
+    fn new(of_node: &[usize], style: &StyleParams, styles: &[Style], camera: &Camera<'_>) -> Self {
         let spheres = Spheres::new(styles, style.mix);
         let has_levels = style.level_of_detail.is_some();
         Self {
             index: StyleIndex::new(of_node),
             spheres: if has_levels { spheres.with_mipmaps(styles) } else { spheres },
-            detail: style.level_of_detail.map(|level| Detail::new(&level, view, rays_across, voxel)),
+            detail: detail(style, camera),
             contour: style.contour.map(|c| Contour::new(c.thickness, c.kappa, c.fade)),
             transparency: style.transparency,
             frame: style.frame,
-            eye_axes: EyeAxes::new(view),
+            eye_axes: EyeAxes::new(camera.view),
         }
     }
 
@@ -269,6 +259,11 @@ impl<R: Real> Styled<R> {
         }
         ([r / alpha_d, g / alpha_d, b / alpha_d], alpha_d * share)
     }
+}
+
+/// The level of detail of a style's material; none: styles are read as they are.
+fn detail<R: Real>(style: &StyleParams, camera: &Camera<'_>) -> Option<Detail<R>> {
+    style.level_of_detail.map(|level| Detail::new(&level, camera.view, camera.rays_across, camera.voxel))
 }
 
 /// A place between the nodes of a function over one quantity or two.
