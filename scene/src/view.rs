@@ -1,6 +1,9 @@
 //! The camera in numbers: eye space, pixels and sample planes ([SPACE-3], [RAY-1], [RAY-5], [RAY-6]).
 
+mod interaction;
 mod orbit;
+
+pub use interaction::InteractionState;
 
 use crate::math;
 use crate::space::Grid;
