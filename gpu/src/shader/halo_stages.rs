@@ -54,7 +54,7 @@ impl HaloStages {
         self.kept.len() + self.watched.len()
     }
 
-    /// The name of a halo's intensity.
+    /// An expression for the intensity of a halo at a pixel: the mean over its rays.
     pub(crate) fn intensity(halo: usize) -> String {
         format!("halo_sum_{halo} / real(RAYS_ACROSS * RAYS_ACROSS)")
     }
