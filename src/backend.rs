@@ -9,11 +9,11 @@ use crate::job::{Job, KnobVariant};
 use drypoint_scene::counts::Counts;
 use std::time::Instant;
 
-/// Prepares frames of a job, or of its scene with other knobs, on a graphics card or by the reference. The cost of preparing
-/// goes to `counts`.
+/// Prepares frames of a job, or of its scene with other knobs, on a graphics card or by the reference. Adds the cost of
+/// the preparation to `counts`.
 ///
 /// # Errors
-/// Same errors as [`Job::renderer`], and those of the adapter.
+/// The errors of [`Job::renderer`], and those of the adapter.
 pub(crate) fn frames<'a>(
     job: &'a Job,
     knobs: Option<&'a KnobVariant>,

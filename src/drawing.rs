@@ -1,4 +1,4 @@
-//! Frames of a scene, and their files: the volume, points and lines over it, or either alone.
+//! Frames of a scene and their files: the volume with points and lines over it, or either alone.
 
 mod frame_writer;
 
@@ -22,7 +22,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-/// A job made ready for any number of frames.
+/// A job prepared for any number of frames.
 pub struct Drawing<'a> {
     job: &'a Job,
     first: View,
@@ -55,19 +55,18 @@ pub struct Frame {
 }
 
 impl<'a> Drawing<'a> {
-    /// Prepares the rays, and the frames of the job's points and lines. The cost of preparing goes to `counts`.
+    /// Prepares the rays, and the frames of the job's points and lines. Adds the cost of the preparation to `counts`.
     ///
     /// # Errors
-    /// Same errors as [`Job::renderer`].
+    /// The errors of [`Job::renderer`].
     pub fn new(job: &'a Job, marking: &'a Marking<'a>, counts: &mut Counts) -> Result<Self, Failure> {
         Self::on(job, marking, None, counts)
     }
 
-    /// Prepares the frames of a job like [`Drawing::new`]. A graphics card, if there is one, draws the volume and tests points
-    /// for visibility.
+    /// Like [`Drawing::new`], but a graphics card, if there is one, draws the volume and tests points for visibility.
     ///
     /// # Errors
-    /// Same errors as [`Job::renderer`], and those of the adapter.
+    /// The errors of [`Job::renderer`], and those of the adapter.
     pub fn on(
         job: &'a Job,
         marking: &'a Marking<'a>,
@@ -82,11 +81,11 @@ impl<'a> Drawing<'a> {
         Ok(drawing)
     }
 
-    /// Prepares the frames of a job like [`Drawing::new`], with frames of its volume that are ready; none: the volume is not
+    /// Like [`Drawing::new`], but with frames of the volume that are already prepared. Without frames the volume is not
     /// drawn.
     ///
     /// # Errors
-    /// A camera without direction.
+    /// The camera has no direction.
     pub fn with_frames(
         job: &'a Job,
         marking: &'a Marking<'a>,
@@ -104,25 +103,26 @@ impl<'a> Drawing<'a> {
         self.orbit.map_or(1, |orbit| orbit.frames)
     }
 
-    /// Returns about how many samples the rays of all frames have without skipping; none if the volume is not drawn.
+    /// Returns about how many samples the rays of all frames have without skipping. Returns none if the volume is not
+    /// drawn.
     pub fn samples(&self) -> Option<f64> {
         self.renderer.as_ref().map(|renderer| renderer.samples() * self.frames() as f64)
     }
 
-    /// Draws a frame and returns it with its own counts. `progress` gets the finished share of the rays, from any
+    /// Draws a frame and returns it with its own counts. `progress` receives the finished share of the rays, on any
     /// thread.
     ///
     /// # Errors
-    /// A camera so far away that sample planes coincide in floating point, or a picture without enough memory.
+    /// The camera is so far away that sample planes coincide, or there is no memory for the picture.
     pub fn frame(&mut self, frame: usize, progress: &(dyn Fn(f64) + Sync)) -> Result<(Frame, Counts), Failure> {
         let frame = self.frame_until(frame, progress, &AtomicBool::new(false))?;
         Ok(frame.unwrap_or_else(|| unreachable!("nothing stops the frame")))
     }
 
-    /// Draws a frame like [`Drawing::frame`], unless it is stopped. See [`Frames::frame_until`].
+    /// Like [`Drawing::frame`], but returns none if the frame is stopped. See [`Frames::frame_until`].
     ///
     /// # Errors
-    /// Same errors as [`Drawing::frame`].
+    /// The errors of [`Drawing::frame`].
     pub fn frame_until(
         &mut self,
         frame: usize,
@@ -180,10 +180,10 @@ impl Frame {
     }
 
     /// Returns the frame in pixels, with points and lines painted over the layer `beauty`. If only points and lines are
-    /// drawn, it is the page with its margin, else a picture of the scene's size.
+    /// drawn, it is the page with its margin. Otherwise it is a picture of the scene's size.
     ///
     /// # Errors
-    /// A picture of no or too many pixels.
+    /// The picture has no pixels or too many.
     pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
         FrameWriter::of(job, self.number).painted(self.picture, self.marks.as_ref())
     }

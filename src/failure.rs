@@ -1,4 +1,4 @@
-//! Failures of the command: what is wrong, where, and what to do.
+//! Failures of the command: the fault, its place, and the remedy.
 
 use drypoint_output::OutputError;
 use drypoint_scene::file::{Fault, Faults};

@@ -28,30 +28,30 @@ use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::Scene;
 use std::sync::atomic::AtomicBool;
 
-/// Any number of frames of one scene, from any camera with its lens.
+/// Draws any number of frames of one scene, from any camera with its lens.
 pub trait Frames {
     /// Returns about how many samples a frame has without skipping.
     fn samples(&self) -> f64;
 
-    /// Returns n of the n×n rays of a pixel, before it is refined.
+    /// Returns n of the n×n rays of a pixel that is not refined.
     fn rays_across(&self) -> usize;
 
-    /// Puts lines inside the frames that follow, or takes them out.
+    /// Puts lines inside the following frames, or removes them.
     ///
     /// # Errors
-    /// Lines in a scene whose plan has none inside the volume.
+    /// The scene's plan has no lines inside the volume.
     fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure>;
 
     /// Takes the camera and the lights of another shot of the scene ([`Shot::seen_from`]). The reference also takes the size
     /// and the rays of a coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)), and prepares nothing anew.
     ///
     /// # Errors
-    /// A camera too far away. Another size or other rays on a graphics card, whose shader is compiled for them; another size
-    /// before a picture.
+    /// The camera is too far away. On a graphics card, whose shader is compiled for them, the size or the rays differ. On the
+    /// reference, the size differs before a picture.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
 
-    /// Draws a frame, with its own counts. `progress` hears the share that is done, from any thread; a frame is paused while it
-    /// waits. Once `stop` is true the frame soon ends without a picture, unless all is drawn.
+    /// Draws a frame, with its own counts. `progress` receives the share that is done, on any thread; the frame pauses
+    /// until it returns. Once `stop` is true, the frame soon ends without a picture, unless it is already complete.
     ///
     /// # Errors
     /// Errors of the adapter.
@@ -61,17 +61,18 @@ pub trait Frames {
         stop: &AtomicBool,
     ) -> Result<Option<(Picture, Counts)>, Failure>;
 
-    /// Draws a frame that nothing stops. See [`Frames::frame_until`].
+    /// Draws a frame that cannot be stopped. See [`Frames::frame_until`].
     ///
     /// # Errors
-    /// Same errors as [`Frames::frame_until`].
+    /// The errors of [`Frames::frame_until`].
     fn frame(&mut self, progress: &(dyn Fn(f64) + Sync)) -> Result<(Picture, Counts), Failure> {
         let frame = self.frame_until(progress, &AtomicBool::new(false))?;
         Ok(frame.unwrap_or_else(|| unreachable!("nothing stops the frame")))
     }
 
-    /// Draws a frame where a viewer has it, and waits for it: the reference in memory, a graphics card in a texture. Nothing
-    /// stops it. Returns the seconds of its rays by the adapter's clock; none without one.
+    /// Draws a frame to where a viewer needs it, and waits for it: the reference to memory, a graphics card to a
+    /// texture. The frame cannot be stopped. Returns the seconds of its rays by the adapter's clock; none without a
+    /// clock.
     ///
     /// # Errors
     /// Errors of the adapter, and a picture without a beauty.
@@ -85,7 +86,7 @@ pub struct ReferenceFrames<'a> {
 }
 
 impl<'a> ReferenceFrames<'a> {
-    /// Frames of a renderer of a scene.
+    /// Frames of a scene by a renderer.
     pub fn new(renderer: Renderer<'a>, scene: &'a Scene) -> Self {
         Self { renderer, scene }
     }

@@ -23,7 +23,7 @@ use drypoint_scene::tables::Scene;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// A job whose volume lies on a graphics card.
+/// A job whose volume is uploaded to a graphics card.
 pub struct GpuJob<'a> {
     job: &'a Job,
     gpu: &'a Gpu,
@@ -33,20 +33,20 @@ pub struct GpuJob<'a> {
 /// Data of a shot on a graphics card.
 struct Uploaded {
     shot: Shot,
-    /// The facts of the volume, then of those of the parts of objects; their numbers are on the card.
+    /// The facts of the volume, then those of the parts of objects. Their numbers are on the card.
     measured: Vec<Measured>,
     /// The volume, then those that objects have of their own.
     volumes: Vec<UploadedVolume>,
-    /// For each entry of `measured` the place of its volume.
+    /// For each entry of `measured`, the index of its volume in `volumes`.
     places: Vec<usize>,
-    /// The volume that each entry of `measured` is of.
+    /// For each entry of `measured`, the volume that was measured.
     of: Vec<Arc<drypoint_scene::volume::Volume>>,
     /// Whether frames can have lines inside the volume.
     has_lines: bool,
 }
 
 impl Uploaded {
-    /// Measures the data of a shot of a job, which needs no renderer, and uploads them.
+    /// Measures the data of a job's shot, without a renderer, and uploads them.
     fn new(
         (job, gpu): (&Job, &Gpu),
         shot: Shot,
@@ -83,7 +83,7 @@ impl<'a> GpuJob<'a> {
     /// Measures the volume of a job and uploads it.
     ///
     /// # Errors
-    /// Same errors as [`Job::renderer`], and those of the adapter.
+    /// The errors of [`Job::renderer`], and those of the adapter.
     pub fn new(job: &'a Job, gpu: &'a Gpu, precision: Precision) -> Result<Self, Failure> {
         Self::upload((job, gpu), job.shot()?, (&job.scene, &job.plan), precision)
     }
@@ -91,7 +91,7 @@ impl<'a> GpuJob<'a> {
     /// Measures the volume of a job for a scene with other knobs, and uploads it.
     ///
     /// # Errors
-    /// Same errors as [`GpuJob::new`].
+    /// The errors of [`GpuJob::new`].
     pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
         Self::upload((job, gpu), job.shot_of(variant)?, (&variant.scene, &variant.plan), precision)
     }
@@ -109,15 +109,15 @@ impl<'a> GpuJob<'a> {
     /// Returns a renderer of the job's picture.
     ///
     /// # Errors
-    /// An effect without a shader, and errors of the adapter.
+    /// An effect has no shader, or the adapter fails.
     pub fn renderer(&self) -> Result<CardRenderer, Failure> {
         self.edited(&|text| text)
     }
 
-    /// Returns a renderer with an edited shader, for tests of whether a comparison notices a fault.
+    /// Returns a renderer with an edited shader. Tests use it to check that a comparison notices a fault.
     ///
     /// # Errors
-    /// Same errors as [`GpuJob::renderer`].
+    /// The errors of [`GpuJob::renderer`].
     pub fn edited(&self, edit: &dyn Fn(String) -> String) -> Result<CardRenderer, Failure> {
         let Uploaded { shot, volumes, .. } = &self.uploaded;
         let data = self.job.inputs(shot);
@@ -139,7 +139,7 @@ impl<'a> GpuJob<'a> {
     }
 }
 
-/// Frames of a job on a graphics card. They own what they need, so that a viewer can keep them beside a job that changes.
+/// Frames of a job on a graphics card. They own their data, so that a viewer can keep them beside a job that changes.
 pub struct GpuFrames {
     gpu: Gpu,
     uploaded: Uploaded,
@@ -147,7 +147,7 @@ pub struct GpuFrames {
     grid: Grid,
     /// The keys of the scene, for errors.
     given: Given,
-    /// A viewer's texture, where frames are shown.
+    /// The texture of a viewer, if a frame has been shown.
     shown: Option<wgpu::Texture>,
 }
 
@@ -155,7 +155,7 @@ impl GpuFrames {
     /// Uploads the volume of a job and prepares its shader.
     ///
     /// # Errors
-    /// Same errors as [`Job::renderer`], an effect without a shader, and errors of the adapter.
+    /// The errors of [`Job::renderer`], an effect without a shader, and errors of the adapter.
     pub fn new(job: &Job, gpu: &Gpu) -> Result<Self, Failure> {
         Self::of_job(GpuJob::new(job, gpu, Precision::Single)?)
     }
@@ -163,7 +163,7 @@ impl GpuFrames {
     /// Prepares frames of a scene with other knobs.
     ///
     /// # Errors
-    /// Same errors as [`GpuFrames::new`].
+    /// The errors of [`GpuFrames::new`].
     pub fn of(job: &Job, gpu: &Gpu, variant: &KnobVariant) -> Result<Self, Failure> {
         Self::of_job(GpuJob::of(job, gpu, variant, Precision::Single)?)
     }
@@ -174,13 +174,14 @@ impl GpuFrames {
         Ok(Self { gpu: gpu.clone(), uploaded, renderer, grid, given, shown: None })
     }
 
-    /// Takes another scene for the frames that follow, for example one of which the user has moved a clip plane; lines inside the
-    /// volume go. Facts of volumes that both jobs share stay, and so do the volumes on the card, unless the scene asks for others
-    /// ([`Shot::keeps_facts_of`]). Then all are measured and uploaded anew, while those of before are still there. Pipelines stay
-    /// where the shader's text does ([`CardRenderer::change`]).
+    /// Takes another scene for the following frames, for example after the user has moved a clip plane. Lines inside
+    /// the volume are removed. Facts of volumes that both jobs share are kept, and so are the volumes on the card,
+    /// unless the scene needs others ([`Shot::keeps_facts_of`]). Then everything is measured and uploaded anew, while
+    /// the previous data are still in memory. Pipelines are kept if the shader's text stays the same
+    /// ([`CardRenderer::change`]).
     ///
     /// # Errors
-    /// Same errors as [`GpuFrames::new`]. The frames that follow are then those of before.
+    /// The errors of [`GpuFrames::new`]. The frames then keep their previous scene.
     pub fn change(&mut self, job: &Job) -> Result<(), Failure> {
         let (shot, has_lines) = (job.shot()?, job.plan.has_pass(Pass::MergedStrokes));
         has_room(job, &job.scene, &job.plan)?;
@@ -209,7 +210,7 @@ impl GpuFrames {
         self.uploaded.volumes.iter().map(UploadedVolume::bytes).sum()
     }
 
-    /// The texture of the last frame that was shown.
+    /// The texture of the last shown frame.
     pub fn shown(&self) -> Option<&wgpu::Texture> {
         self.shown.as_ref()
     }
@@ -278,7 +279,7 @@ fn has_room(job: &Job, scene: &Scene, plan: &Plan) -> Result<(), Failure> {
     room_for_picture(scene, 0)
 }
 
-/// Prepares the test of which points a surface hides.
+/// Prepares the test for points that a surface hides.
 ///
 /// # Errors
 /// Errors of the adapter.
@@ -302,7 +303,7 @@ pub(crate) fn point_test(job: &Job, gpu: &Gpu, surface: &IsoSurface<'_, '_>, nea
 /// Opens the adapter.
 ///
 /// # Errors
-/// No adapter, one that gives no device, or one without the unit that interpolates.
+/// There is no adapter, or it gives no device, or it lacks the interpolation.
 pub fn open(interpolation: Interpolation) -> Result<Gpu, Failure> {
     let gpu = Gpu::new().and_then(|gpu| gpu.interpolating(interpolation));
     let place = match interpolation {

@@ -1,4 +1,4 @@
-//! Halos of pictures: a map of seeds in, the intensities of the paper's stages out ([HALO-10]).
+//! Halos of pictures: from a map of seeds to the intensities of the paper's stages ([HALO-10]).
 
 use crate::Failure;
 use drypoint_output::OutputError;
@@ -22,11 +22,11 @@ pub struct IntensityMap {
 }
 
 impl IntensityMap {
-    /// Reads a PNG, JPEG or EXR. Its numbers are taken as they are, since they are no colours: codes over 2ⁿ − 1, or
-    /// those of an EXR, clamped to [0, 1]. A pixel's intensity is its luminance times its α.
+    /// Reads a PNG, JPEG or EXR. Its numbers are not converted, since they are not colours. They are codes over 2ⁿ − 1,
+    /// or those of an EXR, clamped to [0, 1]. A pixel's intensity is its luminance times its α.
     ///
     /// # Errors
-    /// A file that cannot be read, is no such picture, or does not fit into memory.
+    /// The file cannot be read, is not such a picture, or does not fit into memory.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let bytes = memory::read(&Disk, path).map_err(|source| {
             Failure::picture(&OutputError::Io { path: path.into(), action: "read", source }, path.display())
@@ -63,7 +63,7 @@ impl IntensityMap {
     }
 }
 
-/// Returns the bytes of a number a pixel.
+/// Returns the bytes of one number for each pixel.
 fn size8([width, height]: [usize; 2]) -> u64 {
     8 * width as u64 * height as u64
 }
@@ -77,7 +77,7 @@ fn room(path: &Path, size: [usize; 2], bytes: u64) -> Result<(), Failure> {
 /// A figure of the paper with six or four halos of one map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HaloFigure {
-    /// Fig. 3: seeds and their gradient, each as they are, with a low-pass filter, and spread.
+    /// Fig. 3: seeds and their gradient, each unfiltered, with a low-pass filter, and spread.
     Stages,
     /// Fig. 4: spread gradients for δ = 0.70, 0.80, 0.90 and 0.95.
     Deltas,

@@ -1,4 +1,4 @@
-//! Jobs: a scene with everything that it names loaded, ready for the renderer.
+//! Jobs: a scene with all its data loaded, ready for the renderer.
 //!
 //! ```
 //! use drypoint::job::Job;
@@ -74,7 +74,7 @@ use std::sync::Arc;
 pub use target::RenderTarget;
 use target::{calls_for_function, plan_for, something_is_drawn, values_of_nodes};
 
-/// A scene with everything that it names.
+/// A scene with all its data.
 pub struct Job {
     /// The scene. A transfer function without nodes has those suggested from the data, and foci of halos are points of the
     /// world.
@@ -99,7 +99,7 @@ pub struct Job {
     pub(crate) objects: Objects,
 }
 
-/// A job's scene with other settings of knobs, and what follows from them.
+/// A job's scene with other settings of knobs, and its plan.
 pub struct KnobVariant {
     /// The scene.
     pub scene: Scene,
@@ -139,7 +139,7 @@ impl Job {
         }
     }
 
-    /// Loads everything else for a volume that is already loaded, as [`Job::load`] does.
+    /// Like [`Job::load`], but with a volume that is already loaded.
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
@@ -147,7 +147,7 @@ impl Job {
         Self::with_volume_for(scene, volume, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Loads what `target` needs for a volume that is already loaded, as [`Job::load_for`] does.
+    /// Like [`Job::load_for`], but with a volume that is already loaded.
     ///
     /// # Errors
     /// Same errors as [`Job::load`].
@@ -246,8 +246,8 @@ impl Job {
         self.assets.function.as_deref()
     }
 
-    /// Returns the values of the nodes of the scene's function and of its objects' functions, of those that are in another
-    /// unit.
+    /// Returns the values of nodes of the scene's function and of its objects' functions. Only functions whose nodes
+    /// are in another unit are listed.
     pub fn node_values(&self) -> Vec<NodesPlan> {
         let own = values_of_nodes(&self.scene, &self.volume, "transfer.unit".into(), None);
         own.into_iter().chain(self.objects.node_values(&self.scene)).collect()
@@ -256,7 +256,7 @@ impl Job {
     /// Returns the scene's camera in numbers.
     ///
     /// # Errors
-    /// A camera without direction, or a height on the page.
+    /// The camera has no direction, or its height is given on the page.
     pub fn view(&self) -> Result<View, Failure> {
         self.view.clone().map_err(|error| view_failure(error, &self.scene))
     }
@@ -264,7 +264,7 @@ impl Job {
     /// Returns the shot: the picture of the scene with nothing left to decide.
     ///
     /// # Errors
-    /// A volume that is not drawn itself, a camera without direction, or a length without size.
+    /// The volume is not drawn itself, the camera has no direction, or a length has no size.
     pub fn shot(&self) -> Result<Shot, Failure> {
         self.resolve(&self.scene, &self.plan, self.assets.function.as_ref(), self.view()?)
     }
@@ -286,8 +286,8 @@ impl Job {
     /// Returns a renderer for any number of frames.
     ///
     /// # Errors
-    /// A volume that is not drawn itself, a reconstruction that does not exist, a camera without direction, a picture for
-    /// which there is no memory.
+    /// The volume is not drawn itself, the reconstruction does not exist, the camera has no direction, or there is no
+    /// memory for the picture.
     pub fn renderer(&self) -> Result<Renderer<'_>, Failure> {
         self.made_ready(&self.scene, &self.plan, &self.shot()?, Renderer::new)
     }
@@ -310,7 +310,7 @@ impl Job {
         self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, Renderer::new)
     }
 
-    /// Returns a renderer of a phantom's own formula in place of the voxels ([COST-2]).
+    /// Returns a renderer of a phantom's formula in place of the voxels ([COST-2]).
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`].
@@ -387,7 +387,7 @@ impl Job {
         std::iter::once(&self.volume).chain(self.objects.volumes())
     }
 
-    /// Returns what lies behind the volume.
+    /// Returns the background of the volume.
     pub(crate) fn backdrop(&self, shot: &Shot) -> Backdrop<'_> {
         match (&self.background, &shot.background) {
             (Some(pixels), _) => Backdrop::Pixels(pixels),
@@ -396,7 +396,7 @@ impl Job {
         }
     }
 
-    /// Whether a picture of this job shows nothing but what lies behind the volume.
+    /// Whether a picture of this job shows only its background.
     pub fn shows_nothing(&self, picture: &Picture) -> bool {
         /// Largest error of a mean of equal colours, encoded and decoded.
         const ROUNDING: f64 = 1e-9;

@@ -1,5 +1,5 @@
 //! Points and lines of a scene: stipples ([STIP-1]) and strokes ([HATCH-18]), drawn over or without the volume. Work
-//! that no camera changes is done once.
+//! that does not depend on the camera is done once.
 
 use crate::Failure;
 use crate::gpu::{Gpu, point_test};
@@ -25,11 +25,12 @@ pub struct MarkFrames<'a> {
 }
 
 impl<'a> Marking<'a> {
-    /// Makes the points and lines that no camera changes. Empty without points and lines, or if the layer `beauty`,
-    /// over which they are drawn, is not in the picture. `progress` gets the state of the points, from any thread.
+    /// Makes the points and lines that do not depend on the camera. The result is empty without points and lines. It is
+    /// also empty if the picture lacks the layer `beauty`, over which they are drawn. `progress` receives the state of
+    /// the points, on any thread.
     ///
     /// # Errors
-    /// Same errors as [`Stippling::new`] and [`Stroking::new`].
+    /// The errors of [`Stippling::new`] and [`Stroking::new`].
     pub fn new(job: &'a Job, counts: &mut Counts, progress: &(dyn Fn(PointsProgress) + Sync)) -> Result<Self, Failure> {
         room_for_passes(&job.scene, &job.volume, &job.plan)?;
         let (scene, target) = (&job.scene, job.target());
@@ -58,7 +59,7 @@ impl<'a> Marking<'a> {
 }
 
 impl MarkFrames<'_> {
-    /// Tests points for visibility on a graphics card.
+    /// Makes a graphics card test points for visibility.
     ///
     /// # Errors
     /// Errors of the adapter.

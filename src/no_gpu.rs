@@ -1,4 +1,4 @@
-//! Graphics cards of a library without the feature `gpu`: there is none.
+//! Graphics cards without the feature `gpu`: there are none.
 
 use crate::Failure;
 use crate::job::Job;
@@ -8,7 +8,7 @@ use drypoint_reference::surface::IsoSurface;
 /// A graphics card.
 pub enum Gpu {}
 
-/// The test of which points a surface hides.
+/// The test for points that a surface hides.
 pub(crate) fn point_test(_: &Job, gpu: &Gpu, _: &IsoSurface<'_, '_>, _: f64) -> Result<PointTest, Failure> {
     match *gpu {}
 }

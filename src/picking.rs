@@ -3,22 +3,22 @@
 use crate::Failure;
 use drypoint_reference::ray::{Picked, Renderer};
 
-/// Returns the point of the picture, in pixels from the top left corner, that a pixel stands for. Pixels are numbered
-/// from 0, and whole numbers mean centres: pixel [0, 0] is the point [½, ½].
+/// Returns the point of the picture, in pixels from the top left corner, for a pixel of a scene. Pixels are numbered
+/// from 0, and integers mean centres: pixel [0, 0] is the point [½, ½].
 pub(crate) fn point_of_pixel(pixel: [f64; 2]) -> [f64; 2] {
     pixel.map(|n| n + 0.5)
 }
 
 /// Returns the first visible structure at the centre of a pixel, column x from the left and row y from the top. Returns
-/// none if nothing is seen there, or if the pixel is outside the picture.
+/// none if nothing is visible there, or if the pixel is outside the picture.
 pub fn pick_pixel(renderer: &Renderer<'_>, [x, y]: [usize; 2]) -> Option<Picked> {
     renderer.pick(point_of_pixel([x as f64, y as f64]))
 }
 
-/// Checks that a pixel lies in the picture of a size. `place` names the pixel in the failure.
+/// Checks that a pixel lies in a picture of this size. `place` names the pixel in the failure.
 ///
 /// # Errors
-/// A pixel outside.
+/// The pixel lies outside.
 pub fn pixel_inside([x, y]: [i64; 2], size: [usize; 2], place: &str) -> Result<[usize; 2], Failure> {
     let inside = |n: i64, size: usize| usize::try_from(n).ok().filter(|n| *n < size);
     match (inside(x, size[0]), inside(y, size[1])) {

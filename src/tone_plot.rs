@@ -10,7 +10,7 @@ use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
 
-/// Pixels of the PNG in a unit of the plot.
+/// Pixels of the PNG for each unit of the plot.
 const SCALE: f32 = 1.5;
 
 /// Number of points of the inverse, up to the fullest tone.

@@ -19,13 +19,13 @@ use drypoint_scene::tables::RaysPerPixel;
 use serde::Serialize;
 use std::fmt;
 
-/// The largest difference in f64, as a share of a stage's largest number, up to which algorithms are the same.
+/// The largest difference in f64, as a share of a stage's largest number, up to which algorithms count as the same.
 pub const SAME: f64 = 1e-9;
 
 /// The largest share of pixels at a decision or without a bound that a scene may have.
 pub const MOST_OPEN: f64 = 0.1;
 
-/// A bound above it says nothing of a colour.
+/// A larger bound says nothing about a colour.
 const SAYS_NOTHING: f64 = 0.5;
 
 /// The comparison of a graphics card with the reference on one scene.
@@ -35,17 +35,17 @@ pub struct Validation {
     pub adapter: String,
     /// Stages of a sample, in the order in which they are computed.
     pub stages: Vec<Stage>,
-    /// The first stage that parts in f64; none: none does, or the adapter has no f64.
+    /// The first stage that differs in f64. None if no stage does, or if the adapter has no f64.
     pub parts_at: Option<&'static str>,
     /// The root mean square of the colours' difference in f32, over all pixels.
     pub rms: f64,
     /// The mean of FLIP of the colours in f32.
     pub flip: f64,
-    /// The colours in f32 against their bounds; none where no bound is known, with the reason in `unbounded`.
+    /// The colours in f32 against their bounds. None if no bound is known; `unbounded` then gives the reason.
     pub bounded: Option<Bounded>,
     /// The reason why there are no bounds.
     pub unbounded: Option<String>,
-    /// The picture of the reference and of the card in f32, for a picture of the difference.
+    /// The pictures of the reference and of the card in f32, from which a picture of the difference is made.
     #[serde(skip)]
     pub pictures: [Picture; 2],
 }
@@ -59,7 +59,7 @@ pub struct Stage {
     pub layer: String,
     /// The largest number of the layer.
     pub largest: f64,
-    /// The largest difference with the card in f64; none where it has no f64.
+    /// The largest difference with the card in f64; none if it has no f64.
     pub double: Option<f64>,
     /// The largest difference with the card in f32.
     pub single: f64,
@@ -68,19 +68,19 @@ pub struct Stage {
 /// Colours in f32 against the bounds of their errors.
 #[derive(Clone, Debug, Serialize)]
 pub struct Bounded {
-    /// The largest bound of a pixel that is decided.
+    /// The largest bound of a decided pixel.
     pub bound: f64,
-    /// The largest difference of one.
+    /// The largest difference of a decided pixel.
     pub measured: f64,
-    /// The largest share that a difference takes of its bound.
+    /// The largest ratio of a difference to its bound.
     pub share: f64,
-    /// Decided pixels whose difference exceeds their bound.
+    /// Number of decided pixels whose difference exceeds their bound.
     pub exceeded: usize,
-    /// The share of pixels whose bound says nothing: it exceeds ½.
+    /// The share of pixels whose bound exceeds ½, so that it says nothing.
     pub endless: f64,
     /// The share of pixels at a decision.
     pub undecided: f64,
-    /// Pixels at each decision that is open somewhere.
+    /// Number of pixels at each decision that is open somewhere.
     pub decisions: Vec<(&'static str, usize)>,
     /// The largest difference of a pixel at a decision.
     pub measured_at_decisions: f64,
@@ -90,9 +90,9 @@ pub struct Bounded {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
-    /// Colours in f32 keep their bounds, or every stage in f64 is the reference's.
+    /// Colours in f32 keep their bounds, or every stage in f64 agrees with the reference.
     Kept,
-    /// A bound is exceeded, a stage parts in f64, or too few pixels have a bound that says something.
+    /// A bound is exceeded, a stage differs in f64, or too few pixels have a meaningful bound.
     Failed,
     /// Nothing could have failed: no bound is known for the scene, and the adapter has no f64.
     NotProven,
@@ -109,7 +109,7 @@ impl fmt::Display for Verdict {
 }
 
 impl Validation {
-    /// Whether a bound is exceeded, or the algorithms part.
+    /// Whether a bound is exceeded, or the algorithms differ.
     pub fn is_wrong(&self) -> bool {
         self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
     }
@@ -177,19 +177,19 @@ impl fmt::Display for Bounded {
     }
 }
 
-/// Compares a graphics card with the reference on a job's scene. Rays at edges are left out: each pixel has one ray if
-/// the scene says `samples = "auto"`.
+/// Compares a graphics card with the reference on a job's scene. Rays at edges are left out: with `samples = "auto"`
+/// each pixel has one ray.
 ///
 /// # Errors
-/// Same errors as [`Job::renderer`], and those of the adapter.
+/// The errors of [`Job::renderer`], and those of the adapter.
 pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
     validate_edited(job, gpu, &|text| text)
 }
 
-/// Compares a graphics card like [`validate`], with edited shaders in f32, for tests of whether the bounds notice a fault.
+/// Like [`validate`], but with edited shaders in f32. Tests use it to check that the bounds notice a fault.
 ///
 /// # Errors
-/// Same errors as [`validate`].
+/// The errors of [`validate`].
 pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
     let mut scene = job.scene.clone();
     if scene.picture.samples == RaysPerPixel::Auto {
@@ -251,8 +251,8 @@ pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) ->
     Ok(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures })
 }
 
-/// The stages that a scene has, and their layers. First come those of the first visible sample of a ray, on which no
-/// opacity has a part; then depths, which opacities move; then what they weigh.
+/// The stages of a scene, with their layers. First come stages of the first visible sample of a ray, which do not
+/// depend on opacities. Then come depths, which opacities move, then quantities weighted by opacities.
 fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKind)>, Failure> {
     let query = job.shot_of(variant)?.objects[0].query;
     let has_kappa = query.kappa != KappaSource::None;
@@ -283,7 +283,7 @@ fn drawn(
     picture.map_err(|error| drawn.failure(&error))
 }
 
-/// The lines inside the volume of a job; none if it has none.
+/// The lines inside the volume of a job. Returns none if it has none.
 fn lines_inside(job: &Job, renderer: &Renderer<'_>) -> Result<Option<Fragments>, Failure> {
     if !job.plan.has_pass(Pass::MergedStrokes) {
         return Ok(None);
@@ -295,7 +295,7 @@ fn lines_inside(job: &Job, renderer: &Renderer<'_>) -> Result<Option<Fragments>,
     Ok(Some(fragments(&inside, &view, renderer.rays_across())))
 }
 
-/// The reference's picture with its bounds; the reason, where there are none.
+/// The reference's picture with its bounds, or the reason why there are none.
 fn bounds(job: &Job, variant: &KnobVariant) -> Result<Result<Bounds, String>, Failure> {
     let shot = job.shot_of(variant)?;
     match Renderer::bounds(&shot, job.inputs(&shot), RayOrigin::Middle) {
@@ -305,15 +305,15 @@ fn bounds(job: &Job, variant: &KnobVariant) -> Result<Result<Bounds, String>, Fa
     }
 }
 
-/// The largest difference of two pictures in a layer. Numbers of which one alone is finite, or is a number, are infinitely
-/// far apart.
+/// The largest difference of two pictures in a layer. If only one of two numbers is finite, or only one is NaN, their
+/// difference is infinite.
 fn largest_difference(a: &Picture, b: &Picture, layer: LayerKind) -> f64 {
     let channels = |picture: &Picture| picture.layer(layer).map_or_else(Vec::new, |layer| layer.channels.clone());
     let pairs = channels(a).into_iter().flatten().zip(channels(b).into_iter().flatten());
     pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
 }
 
-/// |a − b|; infinite where one alone is finite, or is a number.
+/// |a − b|. It is infinite if only one number is finite, or only one is NaN.
 fn apart(a: f64, b: f64) -> f64 {
     let difference = if a == b { 0.0 } else { (a - b).abs() };
     if difference.is_nan() { f64::INFINITY } else { difference }

@@ -1,4 +1,4 @@
-//! Step wedges: a page of patches of known tone, to be printed and measured ([STIP-17]).
+//! Step wedges: a page of patches of known tone, for printing and measuring ([STIP-17]).
 
 use crate::Failure;
 use drypoint_output::text::{CAP_HEIGHT, WEIGHT, strokes, width};
@@ -12,10 +12,10 @@ use std::fmt::Write as _;
 /// Number of patches: 0, 0.05, … 0.9.
 const PATCHES: usize = 19;
 
-/// Patches in a row.
+/// Number of patches in a row.
 const ROW: usize = 5;
 
-/// Bytes of memory that a candidate takes while dots are chosen among them.
+/// Bytes of memory for each candidate while dots are chosen.
 const CANDIDATE: f64 = 400.0;
 
 /// Height of capitals, in mm.
@@ -122,7 +122,7 @@ struct Letters {
 }
 
 impl Letters {
-    /// Returns the mm of a font unit. A wide pen gets larger letters.
+    /// Returns the size of a font unit in mm. A wide pen gets larger letters.
     fn scale(&self) -> f64 {
         (LETTERS / CAP_HEIGHT).max(0.5 * self.width / WEIGHT)
     }

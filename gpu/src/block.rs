@@ -4,8 +4,8 @@ use crate::Precision;
 use drypoint_scene::glam::DVec3;
 use std::fmt::Write;
 
-/// Scalars by their names: a WGSL struct of numbers alone, so that member i lies at i times the size of a number, whatever
-/// its type. A vector is three of them and a function that puts them together.
+/// Scalars by their names. The WGSL struct has numbers alone, so member i lies at i times the size of a number,
+/// whatever its type. A vector is three numbers and a function that joins them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ParamBlock {
     fields: Vec<(String, f64)>,
@@ -48,7 +48,7 @@ impl ParamBlock {
         precision.bytes(&values)
     }
 
-    /// Takes the numbers of another block that are here, too.
+    /// Replaces the numbers that another block also has by the other block's.
     pub(crate) fn update(&mut self, other: &Self) {
         other.fields.iter().for_each(|(name, value)| self.set(name, *value));
     }
@@ -58,12 +58,12 @@ impl ParamBlock {
         self.fields.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Adds the numbers of another block, whose names get a suffix.
+    /// Adds the numbers of another block, with a suffix to their names.
     pub(crate) fn append(&mut self, other: &Self, suffix: &str) {
         self.fields.extend(other.fields.iter().map(|(name, value)| (format!("{name}{suffix}"), *value)));
     }
 
-    /// Sets a number that is there.
+    /// Sets a number, if the block has it.
     pub(crate) fn set(&mut self, name: &str, value: f64) {
         for field in self.fields.iter_mut().filter(|field| field.0 == name) {
             field.1 = value;

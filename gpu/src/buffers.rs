@@ -50,10 +50,10 @@ pub(crate) fn read(gpu: &Gpu, buffer: &wgpu::Buffer, bytes: u64) -> Result<Vec<u
     copy
 }
 
-/// Bytes of the longest entry of a list, rounded up.
+/// Bytes of the longest entry of any list, rounded up.
 const LONGEST_ENTRY: u64 = 256;
 
-/// Checks that a shader can read so many bytes. A list that may be large asks before it is made.
+/// Checks that a shader can read this many bytes. It is called before a list is made that may be large.
 pub(crate) fn check_bytes(gpu: &Gpu, what: &'static str, bytes: u64) -> Result<(), GpuError> {
     let limits = gpu.device.limits();
     let most = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);

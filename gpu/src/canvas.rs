@@ -1,4 +1,4 @@
-//! The canvas that the passes of a frame draw on.
+//! The target of the passes of a frame.
 
 use crate::block::ParamBlock;
 use crate::buffers::entry;
@@ -17,8 +17,8 @@ pub(crate) struct Canvas<'f> {
     pub(crate) data: &'f wgpu::BindGroup,
     pub(crate) picture: &'f PictureBuffers,
     pub(crate) clock: Option<&'f Clock>,
-    /// The listener and the flag that stops the frame. After each submission, which is waited for, the listener hears the
-    /// share of the frame that is done. Without them nothing waits.
+    /// A listener, and a flag that stops the frame. After each submission the host waits, and the listener receives the
+    /// share of the frame that is done. Without them the host does not wait.
     pub(crate) steps: Option<(&'f dyn Fn(f64), &'f AtomicBool)>,
     /// Whether the frame was stopped.
     pub(crate) stopped: &'f Cell<bool>,
@@ -39,13 +39,13 @@ impl Canvas<'_> {
         self.gpu.attempt("the picture", || self.gpu.device.create_bind_group(&descriptor))
     }
 
-    /// Writes the scalars for the submissions that follow.
+    /// Writes the scalars for the following submissions.
     pub(crate) fn write_params(&self, block: &ParamBlock, precision: Precision) -> Result<(), GpuError> {
         self.gpu.attempt("the parameters", || self.gpu.queue.write_buffer(self.params, 0, &block.bytes(precision)))
     }
 
-    /// Submits a compute pass, and the copies that follow it. `begins` and `ends`: whether the frame begins with it, and
-    /// whether it ends.
+    /// Submits a compute pass, and the copies that follow it. `begins` and `ends` tell whether it is the first and
+    /// whether it is the last pass of the frame.
     pub(crate) fn submit(
         &self,
         [begins, ends]: [bool; 2],
@@ -64,14 +64,14 @@ impl Canvas<'_> {
         })
     }
 
-    /// Whether nothing more is drawn of the frame.
+    /// Whether the frame has been stopped.
     pub(crate) fn is_stopped(&self) -> bool {
         let is_asked = self.steps.is_some_and(|(_, stop)| stop.load(Ordering::Relaxed));
         self.stopped.set(self.stopped.get() || is_asked);
         self.stopped.get()
     }
 
-    /// Waits for the submissions and tells the share that is done, if anybody listens.
+    /// If there is a listener, waits for the submissions and reports the share that is done.
     pub(crate) fn report(&self, share: f64) -> Result<(), GpuError> {
         if let Some((progress, _)) = self.steps {
             self.gpu.wait()?;

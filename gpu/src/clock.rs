@@ -3,10 +3,10 @@
 use crate::buffers::read;
 use crate::{Gpu, GpuError};
 
-/// Bytes of two stamps.
+/// Bytes of two timestamps.
 const BYTES: u64 = 16;
 
-/// Stamps at the beginning and at the end of a frame.
+/// Timestamps at the beginning and at the end of a frame.
 pub(crate) struct Clock {
     stamps: wgpu::QuerySet,
     resolved: wgpu::Buffer,
@@ -14,7 +14,7 @@ pub(crate) struct Clock {
 }
 
 impl Clock {
-    /// A clock; none where the adapter has none.
+    /// A clock. Returns none if the adapter has none.
     pub(crate) fn new(gpu: &Gpu) -> Result<Option<Self>, GpuError> {
         if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return Ok(None);
@@ -36,7 +36,7 @@ impl Clock {
         gpu.attempt("the clock", new).map(Some)
     }
 
-    /// The stamps of a pass with which a frame begins or ends.
+    /// The timestamps of a frame's first or last pass.
     pub(crate) fn stamps(&self, begins: bool, ends: bool) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
         (begins || ends).then_some(wgpu::ComputePassTimestampWrites {
             query_set: &self.stamps,
@@ -45,13 +45,13 @@ impl Clock {
         })
     }
 
-    /// Makes the stamps ready to be read, after the last pass.
+    /// Makes the timestamps readable, after the last pass.
     pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         encoder.resolve_query_set(&self.stamps, 0..2, &self.resolved, 0);
         encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.back, 0, BYTES);
     }
 
-    /// Seconds between the stamps of the last frame.
+    /// Seconds between the timestamps of the last frame.
     pub(crate) fn seconds(&self, gpu: &Gpu) -> Result<f64, GpuError> {
         let bytes = read(gpu, &self.back, BYTES)?;
         let stamps: Vec<u64> = bytes.as_chunks().0.iter().map(|&bytes| u64::from_le_bytes(bytes)).collect();

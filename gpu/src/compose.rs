@@ -1,4 +1,4 @@
-//! The shader of a shot: which modules it is put together from, and what they read.
+//! The shader of a shot: the modules from which it is composed, and the data that they read.
 
 pub(crate) mod objects;
 
@@ -16,7 +16,7 @@ use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, SampleQuery, Shot};
 use drypoint_scene::transfer::Function;
 
-/// The share of a gradient that is rounding ([PREC-3]).
+/// The share of a gradient that is rounding error ([PREC-3]).
 pub(crate) fn no_normal(precision: Precision) -> f64 {
     match precision {
         Precision::Single => 1.0 / (1u64 << 20) as f64,
@@ -24,7 +24,7 @@ pub(crate) fn no_normal(precision: Precision) -> f64 {
     }
 }
 
-/// Puts the shader of a shot together, for layers in their order.
+/// Composes the shader of a shot, for layers in their order.
 pub(crate) fn shader(
     shot: &Shot,
     layers: &[LayerKind],
@@ -41,8 +41,8 @@ pub(crate) fn shader(
     Ok((shader, scales))
 }
 
-/// The shader of a shot without its objects, for the data of the object `which` at a place; `is_part` says whether that is one
-/// of a picture's parts.
+/// The shader of a shot without its objects, for the data of the object `which` at a place. `is_part` tells whether the
+/// object is a part of the picture.
 fn of_volume(
     (shot, layers, is_part): (&Shot, &[LayerKind], bool),
     (inputs, which): (&CardInputs<'_>, usize),
@@ -162,7 +162,7 @@ fn of_volume(
     Ok((shader, scales))
 }
 
-/// The numbers of a shader that depend on the camera, of a shot for a volume at a place.
+/// The numbers of a shader that depend on the camera, for a shot of a volume at a place.
 pub(crate) fn camera(shot: &Shot, place: &GridPlacement) -> Result<ParamBlock, GpuError> {
     let object = shot.background();
     let mut block = ParamBlock::default();
@@ -180,14 +180,14 @@ pub(crate) fn camera(shot: &Shot, place: &GridPlacement) -> Result<ParamBlock, G
     Ok(block)
 }
 
-/// Adds the near distance where surfaces or funnels ask for it.
+/// Adds the near distance if surfaces or funnels need it.
 fn add_near(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) {
     if ray::ends_rays(shot) || volumeshop::has_funnel(shot) {
         ray::add_near(block, shot, place);
     }
 }
 
-/// The direction to the light; none where nothing is lit.
+/// The direction to the light. Returns none if nothing is lit.
 fn light_of(lit: &Illumination) -> Option<DVec3> {
     match &lit.lighting {
         Lighting::Flat => None,

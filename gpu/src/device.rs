@@ -4,27 +4,27 @@ use crate::GpuError;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Features that a device should have where its adapter does: f64, a clock, and a texture unit that interpolates f32.
+/// Features that a device should have if its adapter does: f64, a clock, and a texture unit that interpolates f32.
 pub const WANTED: wgpu::Features =
     wgpu::Features::SHADER_F64.union(wgpu::Features::TIMESTAMP_QUERY).union(wgpu::Features::FLOAT32_FILTERABLE);
 
 /// The unit that interpolates between voxels ([GPU-2]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Interpolation {
-    /// The shader, in its numbers.
+    /// The shader, in its own precision.
     #[default]
     Exact,
-    /// The texture unit, where the kernel is trilinear. Hardware weighs voxels with 8 bits.
+    /// The texture unit, if the kernel is trilinear. Its weights have 8 bits.
     Fast,
 }
 
-/// The numbers that a shader computes in.
+/// The precision in which a shader computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Precision {
     /// f32.
     #[default]
     Single,
-    /// f64, which few adapters have: to compare algorithms without their rounding.
+    /// f64, which few adapters have. It compares algorithms without their rounding.
     Double,
 }
 
@@ -54,24 +54,24 @@ impl Precision {
     }
 }
 
-/// A graphics adapter, ready for work.
+/// A graphics adapter, prepared for work.
 #[derive(Clone)]
 pub struct Gpu {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     info: wgpu::AdapterInfo,
     interpolation: Interpolation,
-    /// Pipelines that were compiled.
+    /// Number of compiled pipelines.
     pipelines: Arc<AtomicUsize>,
-    /// The driver's words on why the device was lost; none: it is there.
+    /// The driver's reason for the loss of the device, if it was lost.
     lost: Arc<Mutex<Option<String>>>,
 }
 
 impl Gpu {
-    /// The fastest adapter, or a software one where there is no other.
+    /// The fastest adapter, or a software one if there is no other.
     ///
     /// # Errors
-    /// No adapter, or one that gives no device.
+    /// There is no adapter, or the adapter gives no device.
     pub fn new() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::default();
         let options = wgpu::RequestAdapterOptions {
@@ -92,8 +92,8 @@ impl Gpu {
         Ok(Self::of(info, device, queue))
     }
 
-    /// The adapter of a device that another program opened: a viewer's, say. [`WANTED`] features serve where the device has
-    /// them. The callback for a lost device is taken over.
+    /// The adapter of a device that another program, such as a viewer, opened. [`WANTED`] features are used if the
+    /// device has them. The callback for a lost device is replaced.
     pub fn of(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let lost = Arc::new(Mutex::new(None));
         let heard = Arc::clone(&lost);
@@ -103,7 +103,7 @@ impl Gpu {
         Self { device, queue, info, interpolation: Interpolation::Exact, pipelines: Arc::default(), lost }
     }
 
-    /// The device, to make textures for [`CardRenderer::frame_into`](crate::CardRenderer::frame_into).
+    /// The device, for making textures for [`CardRenderer::frame_into`](crate::CardRenderer::frame_into).
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
@@ -113,7 +113,7 @@ impl Gpu {
         &self.queue
     }
 
-    /// Number of pipelines that were compiled since the device was opened.
+    /// Number of pipelines compiled since the device was opened.
     pub fn pipelines(&self) -> usize {
         self.pipelines.load(Ordering::Relaxed)
     }
@@ -123,7 +123,7 @@ impl Gpu {
         self.pipelines.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// The adapter's name and driver, and whether it is software, for a person.
+    /// The adapter's name and driver, and whether it is software, for display.
     pub fn describe(&self) -> String {
         let kind = if self.is_software() { ", software" } else { "" };
         format!("{} ({}, {}{kind})", self.info.name, self.info.driver_info, self.info.backend)
@@ -134,7 +134,7 @@ impl Gpu {
         &self.info.name
     }
 
-    /// Whether the adapter is a program and no card.
+    /// Whether the adapter is software.
     pub fn is_software(&self) -> bool {
         self.info.device_type == wgpu::DeviceType::Cpu
     }
@@ -144,10 +144,10 @@ impl Gpu {
         self.device.features().contains(wgpu::Features::SHADER_F64)
     }
 
-    /// Returns the device with another unit that interpolates between voxels, for renderers to come.
+    /// Returns the device with another unit of interpolation between voxels, for renderers that are made with it.
     ///
     /// # Errors
-    /// A texture unit that does not interpolate f32.
+    /// The texture unit does not interpolate f32.
     pub fn interpolating(&self, interpolation: Interpolation) -> Result<Self, GpuError> {
         let filters = self.device.features().contains(wgpu::Features::FLOAT32_FILTERABLE);
         if interpolation == Interpolation::Fast && !filters {
@@ -159,7 +159,7 @@ impl Gpu {
     /// Makes a texture for the frames of a viewer ([`CardRenderer::frame_into`](crate::CardRenderer::frame_into)).
     ///
     /// # Errors
-    /// A texture that is too large, or for which there is no memory.
+    /// The texture is too large, or there is no memory for it.
     pub fn viewer_texture(&self, [width, height]: [usize; 2]) -> Result<wgpu::Texture, GpuError> {
         let size = wgpu::Extent3d { width: width as u32, height: height as u32, depth_or_array_layers: 1 };
         self.attempt("a viewer's texture", || {
@@ -183,8 +183,8 @@ impl Gpu {
         self.interpolation
     }
 
-    /// Runs commands of the device and turns what the driver says into an error. `what` names the data for which there may
-    /// be no memory.
+    /// Runs commands of the device and converts the driver's messages to an error. `what` names the data for which
+    /// memory may be missing.
     pub(crate) fn attempt<T>(&self, what: &'static str, run: impl FnOnce() -> T) -> Result<T, GpuError> {
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
@@ -206,7 +206,7 @@ impl Gpu {
     /// Waits until all commands are done.
     ///
     /// # Errors
-    /// A device that is lost.
+    /// The device is lost.
     pub fn wait(&self) -> Result<(), GpuError> {
         let polled = self.device.poll(wgpu::PollType::wait_indefinitely());
         self.is_there()?;

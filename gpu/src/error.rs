@@ -1,6 +1,6 @@
-//! Pictures that a graphics card cannot draw.
+//! Errors of graphics cards.
 
-/// A picture that cannot be drawn on this adapter, or not at all.
+/// An error that prevents a picture on this adapter, or on any.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum GpuError {
     /// There is no adapter.
@@ -11,10 +11,10 @@ pub enum GpuError {
     NoDevice {
         /// The adapter's name.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
-    /// The adapter computes in f32 alone.
+    /// The adapter computes in f32 only.
     #[error("{adapter} has no numbers in f64")]
     NoDouble {
         /// The adapter's name.
@@ -31,7 +31,7 @@ pub enum GpuError {
     TooLarge {
         /// Numbers along x, y and z.
         dims: [usize; 3],
-        /// The most along an axis.
+        /// The largest number along an axis.
         most: usize,
         /// The adapter's name.
         adapter: String,
@@ -43,7 +43,7 @@ pub enum GpuError {
         what: &'static str,
         /// Its size.
         bytes: u64,
-        /// The most bytes.
+        /// The largest number of bytes.
         most: u64,
         /// The adapter's name.
         adapter: String,
@@ -61,15 +61,15 @@ pub enum GpuError {
     Lost {
         /// The adapter's name.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
-    /// The driver refuses a shader or a command: a fault of this program or of the driver.
+    /// The driver refuses a shader or a command. This is a fault of the program or of the driver.
     #[error("{adapter} refuses a command: {reason}")]
     Refused {
         /// The adapter's name.
         adapter: String,
-        /// The driver's words.
+        /// The driver's message.
         reason: String,
     },
     /// The driver ended a shader that ran too long.
@@ -86,12 +86,12 @@ pub enum GpuError {
         /// The scene key that asks for it.
         key: &'static str,
     },
-    /// More sample planes than whole numbers of f32 can count.
+    /// There are more sample planes than integers of f32 can count.
     #[error("the volume ends {planes} sample planes from the eye; graphics cards count up to {most}")]
     TooManyPlanes {
         /// Planes up to the farthest corner of the volume.
         planes: u64,
-        /// The most planes.
+        /// The largest number of planes.
         most: u64,
     },
     /// Lines are merged with a shot that was prepared without them.

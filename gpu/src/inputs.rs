@@ -1,17 +1,17 @@
-//! The data that a shader is put together from.
+//! The data from which a shader is composed.
 
 use crate::GpuError;
 use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::measured::Measured;
 
-/// The data that a shot names, with what was measured of them and uploaded.
+/// The data that a shot names, with their measured facts and the indices of uploaded volumes.
 #[derive(Clone, Copy, Debug)]
 pub struct CardInputs<'a> {
     /// The data.
     pub data: &'a Inputs<'a>,
     /// The facts of each of [`Shot::objects`](drypoint_scene::shot::Shot::objects), in their order.
     pub measured: &'a [Measured],
-    /// For each of these the place of its volume among those that are uploaded.
+    /// For each object, the index of its volume among the uploaded ones.
     pub places: &'a [usize],
     /// Whether frames can have lines inside the volume ([HATCH-14] d).
     pub has_lines: bool,
@@ -24,7 +24,7 @@ pub(crate) struct ObjectInputs<'a> {
     pub(crate) data: ObjectData<'a>,
     /// The facts of its volume.
     pub(crate) measured: &'a Measured,
-    /// The place of its volume among those that are uploaded.
+    /// Index of its volume among the uploaded ones.
     pub(crate) place: usize,
 }
 
@@ -32,7 +32,7 @@ impl<'a> CardInputs<'a> {
     /// The data of one of the shot's objects.
     ///
     /// # Errors
-    /// Data that were not handed over.
+    /// The data were not handed over.
     pub(crate) fn object(&self, which: usize) -> Result<ObjectInputs<'a>, GpuError> {
         let data = match which.checked_sub(1) {
             None => Some(&self.data.main),

@@ -1,4 +1,4 @@
-//! Functions of shaders over tables of inputs, to compare them formula by formula.
+//! Functions of shaders over tables of inputs, for comparing single formulas.
 
 use crate::block::ParamBlock;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
@@ -6,23 +6,23 @@ use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::glam::DVec3;
 use std::fmt::Write;
 
-/// The most rows of a table.
+/// The largest number of rows of a table.
 const MOST_ROWS: usize = 1 << 20;
 
 /// Expressions in WGSL over the rows of a table.
 #[derive(Clone, Debug, Default)]
 pub struct ShaderKernel<'k> {
-    /// The text of the modules that the expressions call, one after the other; the number type comes before it.
+    /// The concatenated text of the modules that the expressions call. The number type is prepended.
     pub modules: String,
     /// Numbers that the modules read as `params.name`.
     pub params: &'k [(&'k str, f64)],
     /// Vectors that the modules read as `name()`.
     pub vectors: &'k [(&'static str, [f64; 3])],
-    /// Lists of numbers, by their binding in group 1.
+    /// Lists of numbers, with their bindings in group 1.
     pub lists: &'k [(u32, &'k [f64])],
-    /// Lists of whole numbers, likewise.
+    /// Lists of integers, with their bindings in group 1.
     pub words: &'k [(u32, &'k [u32])],
-    /// Lists of texels, likewise.
+    /// Lists of texels, with their bindings in group 1.
     pub texels: &'k [(u32, &'k [[f32; 4]])],
     /// Statements before the expressions. `x[0]`, `x[1]`, … are the numbers of a row.
     pub before: &'k str,
@@ -31,13 +31,13 @@ pub struct ShaderKernel<'k> {
 }
 
 impl ShaderKernel<'_> {
-    /// Evaluates the expressions for the rows of a table, `columns` numbers each.
+    /// Evaluates the expressions for the rows of a table with `columns` numbers each.
     ///
     /// # Errors
-    /// A device without such numbers, without memory, or that refuses the text.
+    /// The device lacks the number type or memory, or refuses the text.
     ///
     /// # Panics
-    /// With more than a million rows.
+    /// If the table has more than 2²⁰ rows.
     pub fn run(&self, gpu: &Gpu, precision: Precision, columns: usize, table: &[f64]) -> Result<Vec<f64>, GpuError> {
         if precision == Precision::Double && !gpu.has_double() {
             return Err(GpuError::NoDouble { adapter: gpu.name().to_owned() });

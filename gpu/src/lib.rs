@@ -1,13 +1,13 @@
 //! Drypoint's pictures on graphics cards, by wgpu.
 //!
-//! A [`Gpu`] is an adapter with its device. A volume is uploaded once ([`UploadedVolume`]), and a [`CardRenderer`] draws any
-//! number of frames of it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning: planes, formulas and every `auto` are
-//! those of the shot, and what only voxels can tell comes measured, in a
+//! A [`Gpu`] is an adapter with its device. A volume is uploaded once ([`UploadedVolume`]), and a [`CardRenderer`]
+//! draws any number of frames of it, as the [`Shot`](drypoint_scene::shot::Shot) says. The crate decides no meaning:
+//! planes, formulas and every `auto` are those of the shot. Facts that only voxels can tell come measured, in a
 //! [`Measured`](drypoint_scene::measured::Measured).
 //!
-//! Shaders are put together from modules, `.wgsl` files. Each names its Rust twin, whose stem it has, or says that it is
-//! glue. The list of modules follows from the shot, so a scene without an effect has no line, no binding and no pass of it
-//! ([GPU-4]). One text runs with `real = f32` and, where the adapter has it, `real = f64`.
+//! Shaders are composed from modules, `.wgsl` files. Each names its Rust twin, whose stem it has, or says that it is
+//! glue. The list of modules follows from the shot, so a shader has no line, binding or pass of effects that the scene
+//! lacks ([GPU-4]). One text runs with `real = f32` and, if the adapter has it, `real = f64`.
 
 mod block;
 mod buffers;

@@ -5,15 +5,15 @@ use std::ops::Range;
 
 /// Buffers for rows of a picture, kept from frame to frame.
 pub(crate) struct PictureBuffers {
-    /// The most rows that are finished together.
+    /// The largest number of rows that are finished together.
     pub(crate) rows: usize,
-    /// Bytes of a row of pixels with all their channels.
+    /// Bytes of a row of pixels with all channels.
     pub(crate) bytes_a_row: u64,
     /// The numbers of the rows.
     pub(crate) out: wgpu::Buffer,
-    /// Numbers on their way to the host.
+    /// Numbers that are copied to the host.
     pub(crate) back: wgpu::Buffer,
-    /// The numbers before pixels are refined; none: no pixel is.
+    /// The numbers before pixels are refined; none if no pixel is.
     pub(crate) before: Option<wgpu::Buffer>,
 }
 
@@ -43,7 +43,7 @@ impl PictureBuffers {
         Ok(Self { rows, bytes_a_row, out, back, before })
     }
 
-    /// The rows that are drawn for rows that are finished.
+    /// The rows that must be drawn to finish some rows.
     pub(crate) fn rows_around(&self, rows: &Range<usize>, height: usize) -> Range<usize> {
         match self.before {
             Some(_) => rows.start.saturating_sub(1)..(rows.end + 1).min(height),
@@ -58,7 +58,7 @@ impl PictureBuffers {
         }
     }
 
-    /// Copies finished rows, the first of them `skipped` rows from the top.
+    /// Copies finished rows. The first of them is `skipped` rows from the top.
     pub(crate) fn copy_back(&self, encoder: &mut wgpu::CommandEncoder, skipped: usize, rows: usize) {
         let [offset, bytes] = [skipped, rows].map(|rows| self.bytes_a_row * rows as u64);
         encoder.copy_buffer_to_buffer(&self.out, offset, &self.back, 0, bytes);

@@ -7,15 +7,16 @@ use drypoint_scene::space::Grid;
 /// The place of a volume as it is drawn.
 #[derive(Clone, Debug)]
 pub(crate) struct GridPlacement {
-    /// Its grid there.
+    /// Its grid at that place.
     pub(crate) grid: Grid,
     /// The box of its samples in index space.
     pub(crate) index_box: [DVec3; 2],
-    /// The plane from which planes are counted: that of the picture's volume.
+    /// The plane from which planes are counted, which is that of the picture's volume.
     pub(crate) anchor: f64,
     /// The smallest voxel side of the picture's volume, in world units.
     pub(crate) voxel: f64,
-    /// The transpose of L_T of [VS-2], from gradients of the volume to those of the moved field; none where it is not moved.
+    /// The transpose of L_T of [VS-2], which maps gradients of the volume to those of the moved field; none if it is
+    /// not moved.
     pub(crate) moved: Option<DMat3>,
 }
 
@@ -26,7 +27,7 @@ impl GridPlacement {
         Self { grid: grid.clone(), index_box: grid.index_box(), anchor, voxel, moved: None }
     }
 
-    /// Another grid beside it; `axes` are those of its data, which are others where it is moved.
+    /// The place of another grid in the picture. `axes` are those of its data, which differ if it is moved.
     pub(crate) fn beside(&self, grid: Grid, axes: DMat3) -> Self {
         // L_T maps vectors of the picture's world to those of the data's.
         let moved = (grid.axes() != axes).then(|| (axes * grid.inverse_axes()).transpose());

@@ -1,4 +1,4 @@
-//! Pictures of a shot, any number of them.
+//! A shot prepared for drawing any number of frames.
 
 use crate::buffers::{buffer, list_entry, read};
 use crate::canvas::Canvas;
@@ -24,7 +24,7 @@ use std::cell::Cell;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-/// The first channel of a pixel whose rays the driver ended lies below.
+/// An upper bound on the first channel of a pixel whose rays the driver ended.
 const UNFINISHED: f64 = -1.5e30;
 
 /// The order in which rays are drawn.
@@ -35,12 +35,12 @@ enum Rays {
     Together(Box<HaloPlanes>),
 }
 
-/// A shot that is ready to be drawn any number of times.
+/// A shot that is prepared for drawing any number of times.
 pub struct CardRenderer {
     gpu: Gpu,
     precision: Precision,
     shader: Shader,
-    /// The text that the pipelines run.
+    /// The text of the pipelines.
     text: String,
     scales: Scales,
     rays: Rays,
@@ -50,15 +50,15 @@ pub struct CardRenderer {
     picture: PictureBuffers,
     presentation: Option<Presentation>,
     clock: Option<Clock>,
-    /// Lines inside the volume; none where no frame can have any.
+    /// Lines inside the volume; none if no frame can have any.
     lines: Option<LinesOnRays>,
-    /// The funnels of smooth cutaways, which are mapped before all else.
+    /// The funnels of smooth cutaways, which are mapped before everything else.
     funnels: Option<FunnelPasses>,
     /// The places of the shot's objects.
     objects: PlacesOfObjects,
     /// The layers that the shot asks for.
     asked: Vec<LayerKind>,
-    /// Those, with the beauty first where edges are found by it.
+    /// The drawn layers: `asked`, with the beauty first if edges are found in it.
     layers: Vec<LayerKind>,
     size: [usize; 2],
 }
@@ -67,12 +67,12 @@ impl CardRenderer {
     /// Prepares a shot for volumes that are already uploaded: the picture's, and those that objects have of their own.
     ///
     /// # Errors
-    /// An effect without a shader, data that do not fit, a driver that refuses.
+    /// An effect has no shader, data do not fit, or the driver refuses.
     pub fn new(gpu: &Gpu, volumes: &[UploadedVolume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volumes, shot, inputs, &|text| text)
     }
 
-    /// Prepares a shot with an edited shader, for tests of whether a comparison notices a fault.
+    /// Prepares a shot with an edited shader. Tests use it to check that a comparison notices a fault.
     ///
     /// # Errors
     /// See [`CardRenderer::new`].
@@ -146,13 +146,14 @@ impl CardRenderer {
         })
     }
 
-    /// Takes another shot for the frames that follow, by the arguments of [`CardRenderer::new`]. Lines inside the volume go.
+    /// Takes another shot for the following frames, by the arguments of [`CardRenderer::new`]. Lines inside the volume
+    /// are removed.
     ///
     /// Pipelines are compiled only if the text of the shader, the layers, the size of the picture or the reach of halos and
     /// funnels differs. Other numbers and colours, and moved clip planes, are uploaded: scalars, and the lists that differ.
     ///
     /// # Errors
-    /// See [`CardRenderer::new`]. The renderer then draws the shot of before.
+    /// See [`CardRenderer::new`]. The renderer then keeps its previous shot.
     pub fn change(&mut self, volumes: &[UploadedVolume], shot: &Shot, inputs: &CardInputs<'_>) -> Result<(), GpuError> {
         let layers = drawn_layers(shot);
         let (shader, scales) = compose::shader(shot, &layers, inputs, self.precision, self.gpu.interpolation())?;
@@ -185,10 +186,11 @@ impl CardRenderer {
         Ok(())
     }
 
-    /// Takes the camera and the lights of another shot for the frames that follow. The shots may differ in nothing else.
+    /// Takes the camera and the lights of another shot for the following frames. Nothing else may differ between the
+    /// shots.
     ///
     /// # Errors
-    /// More sample planes than the shader counts.
+    /// There are more sample planes than the shader can count.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         let place = GridPlacement::own(shot, grid);
         let blocks = [compose::camera(shot, &place)?, compose::objects::camera(shot, &self.objects, &place)?];
@@ -210,10 +212,10 @@ impl CardRenderer {
         Ok(())
     }
 
-    /// Puts lines inside the frames that follow, or takes them out: those of the camera of these frames ([HATCH-14] d).
+    /// Puts lines for the current camera inside the following frames, or removes them ([HATCH-14] d).
     ///
     /// # Errors
-    /// Lines in a shot that was prepared without them.
+    /// The shot was prepared without lines.
     pub fn merge(&mut self, lines: Option<Fragments>) -> Result<(), GpuError> {
         match &mut self.lines {
             Some(on_rays) => on_rays.lines = lines,
@@ -223,16 +225,16 @@ impl CardRenderer {
         Ok(())
     }
 
-    /// Draws one frame. `progress` hears the share of the picture that is done.
+    /// Draws one frame. `progress` receives the share of the picture that is done.
     ///
     /// # Errors
-    /// A device that is lost, or has no memory for the picture.
+    /// The device is lost, or has no memory for the picture.
     pub fn frame(&mut self, progress: &dyn Fn(f64)) -> Result<Picture, GpuError> {
         let picture = self.frame_until(progress, &AtomicBool::new(false))?;
         Ok(picture.unwrap_or_else(|| unreachable!("nothing stops the frame")))
     }
 
-    /// Draws one frame, unless `stop` becomes true before the last band of rows or the last planes: then there is no picture.
+    /// Draws one frame. Returns none if `stop` becomes true before the last band of rows or the last planes.
     ///
     /// # Errors
     /// See [`CardRenderer::frame`].
@@ -279,7 +281,7 @@ impl CardRenderer {
     /// is of `Rgba16Float`, at least as large as the picture, and allows `STORAGE_BINDING`.
     ///
     /// # Errors
-    /// A shot without a beauty, a picture that does not fit in one buffer, and a device that is lost.
+    /// The shot has no beauty, the picture does not fit in one buffer, or the device is lost.
     pub fn frame_into(&mut self, target: &wgpu::TextureView) -> Result<(), GpuError> {
         self.fits_whole()?;
         self.draw_rows(0..self.size[1], None)?;
@@ -292,17 +294,17 @@ impl CardRenderer {
         Ok(())
     }
 
-    /// Waits for the last frame and returns its seconds by the adapter's clock, from the first ray to the last; none where
-    /// the adapter has no such clock.
+    /// Waits for the last frame and returns its seconds by the adapter's clock, from the first ray to the last. Returns
+    /// none if the adapter has no such clock.
     ///
     /// # Errors
-    /// A device that is lost.
+    /// The device is lost.
     pub fn seconds(&self) -> Result<Option<f64>, GpuError> {
         self.clock.as_ref().map(|clock| clock.seconds(&self.gpu)).transpose()
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back. Returns whether all were drawn. A
-    /// frame in steps has a listener and a flag that stops it.
+    /// Draws rows into the picture's buffer, and copies them to the buffer that is read back. Returns whether all were
+    /// drawn. `steps` are a listener and a flag that stops the frame.
     fn draw_rows(&mut self, rows: Range<usize>, steps: Option<(&dyn Fn(f64), &AtomicBool)>) -> Result<bool, GpuError> {
         let Self { gpu, params, data: BoundData { group: data, .. }, picture, clock, .. } = self;
         let (gpu, stopped) = (&*gpu, Cell::new(false));
@@ -327,7 +329,7 @@ impl CardRenderer {
         Ok(!stopped.get())
     }
 
-    /// Refuses a picture that does not fit in one buffer.
+    /// Fails for a picture that does not fit in one buffer.
     fn fits_whole(&self) -> Result<(), GpuError> {
         let [_, height] = self.size;
         if self.picture.rows >= height {
@@ -342,7 +344,7 @@ impl CardRenderer {
     }
 }
 
-/// The layers that a shader draws. Edges are found by the beauty, which comes first then.
+/// The layers that a shader draws. If edges are found in the beauty, it comes first.
 pub(crate) fn drawn_layers(shot: &Shot) -> Vec<LayerKind> {
     let (mut first, mut layers) = (Vec::new(), shot.layers.clone());
     if shot.refine_above.is_some() {
@@ -373,7 +375,7 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
-/// The corners of the boxes about all that can be seen beside the volume.
+/// The corners of the boxes about everything visible beside the volume.
 fn others_in(inputs: &CardInputs<'_>, objects: &PlacesOfObjects) -> Vec<DVec3> {
     inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect()
 }
@@ -382,11 +384,12 @@ fn others_in(inputs: &CardInputs<'_>, objects: &PlacesOfObjects) -> Vec<DVec3> {
 pub(crate) struct BoundData {
     /// Group 1.
     pub(crate) group: wgpu::BindGroup,
-    /// The lists among the shader's data; none in the place of other data.
+    /// The lists among the shader's data; none for other data.
     lists: Vec<Option<wgpu::Buffer>>,
 }
 
-/// Uploads what a shader reads. `before` is a shader with the same bindings and its data: lists that are equal stay.
+/// Uploads the data that a shader reads. `before` is a shader with the same bindings and its data, whose equal lists
+/// are kept.
 pub(crate) fn bind_data(
     gpu: &Gpu,
     volumes: &[UploadedVolume],

@@ -1,4 +1,4 @@
-//! A shader put together from modules.
+//! A shader composed from modules.
 
 mod attach;
 mod declarations;
@@ -15,26 +15,26 @@ use std::fmt::Write;
 /// Data that a binding of group 1 reads.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Data {
-    /// The numbers that a volume's kernel weighs, by the place of the volume.
+    /// The numbers of a volume's kernel, by the index of the volume.
     Numbers(usize),
     /// A volume's voxels.
     Voxels(usize),
     /// The smoothed coefficients of a volume.
     Smoothed(usize),
-    /// The cells of a lighting table, which for light from the world depend on the camera.
+    /// The cells of a lighting table. For light from the world they depend on the camera.
     Lighting(Vec<f64>),
     /// The texture unit's interpolation.
     Sampler,
     /// Numbers.
     Reals(Vec<f64>),
-    /// Whole numbers or bits.
+    /// Integers or bits.
     Words(Vec<u32>),
     /// Texels in f32.
     Texels(Vec<[f32; 4]>),
 }
 
 impl Data {
-    /// Whether the data are those of every frame.
+    /// Whether the data are the same in every frame.
     pub(crate) fn is_constant(&self) -> bool {
         !matches!(self, Self::Lighting(_))
     }
@@ -47,25 +47,25 @@ pub(crate) enum Constant {
     Int(i64),
 }
 
-/// The functions that are called at each step, in their order. Each list is one function of the shader, with one line for each
-/// entry.
+/// The functions that are called at each step, in their order. Each list becomes one function of the shader, with one
+/// line for each entry.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Stages {
     /// Before a ray of a pixel begins.
     pub(crate) begin_part: Vec<&'static str>,
     /// When a ray begins.
     pub(crate) begin_ray: Vec<&'static str>,
-    /// From the run of samples in the box to those that are left.
+    /// Maps the run of samples in the box to the remaining ones.
     pub(crate) samples_left: Vec<&'static str>,
-    /// From the run of all samples, among objects, to those that are left.
+    /// Maps the run of all samples, among objects, to the remaining ones.
     pub(crate) all_left: Vec<&'static str>,
-    /// From a sample to the next plane that can show something.
+    /// Maps a sample to the next plane that can show something.
     pub(crate) next_plane: Vec<&'static str>,
-    /// From a sample to the next plane that is no masked one, among objects.
+    /// Maps a sample to the next plane that is not masked, among objects.
     pub(crate) next_number: Vec<&'static str>,
     /// When a sample's value is evaluated.
     pub(crate) visited: Vec<&'static str>,
-    /// From the place of a value to that between nodes.
+    /// Maps the place of a value to the place between nodes.
     pub(crate) nodes: Vec<&'static str>,
     /// Attributes that decide whether a sample is visible.
     pub(crate) measured_first: Vec<&'static str>,
@@ -81,26 +81,26 @@ pub(crate) struct Stages {
     pub(crate) lit: Vec<&'static str>,
     /// The cut that a visible sample lies on.
     pub(crate) cut: Vec<&'static str>,
-    /// The number of steps that a sample stands for.
+    /// The number of steps for which a sample stands.
     pub(crate) steps: Vec<&'static str>,
-    /// From a cell to the side of the block of cells without an iso-surface; 0: the cell is searched.
+    /// Maps a cell to the side of the surrounding block without an iso-surface; 0 if the cell must be searched.
     pub(crate) passed: Vec<&'static str>,
     /// The colour of an iso-surface.
     pub(crate) on_surface: Vec<&'static str>,
-    /// Things that a ray meets behind its samples.
+    /// The ends of a ray behind its samples.
     pub(crate) ends: Vec<&'static str>,
-    /// Functions by which layers take in a sample.
+    /// Functions that add a sample to layers.
     pub(crate) collect: Vec<&'static str>,
-    /// The number of objects whose coverage layers show, from the background on.
+    /// The number of objects whose coverage layers need, the background first.
     pub(crate) covering: usize,
     /// When a ray has ended.
     pub(crate) end_ray: Vec<&'static str>,
-    /// Expressions for the channels of a pixel, in their order; `mean` is the beauty. Those of one ray stay when the pixel is
-    /// refined.
+    /// Expressions for the channels of a pixel, in their order. `mean` is the beauty. Channels of one ray are kept when
+    /// the pixel is refined.
     pub(crate) channels: Vec<Channel>,
-    /// Stages of halos; none: the scene has no halo.
+    /// Stages of halos, if the scene has any.
     pub(crate) halos: Option<HaloStages>,
-    /// Functions of objects; none: the scene has no object, and is no part of one.
+    /// Functions of objects, if the scene has objects or is a part of one.
     pub(crate) objects: Option<String>,
 }
 
@@ -108,11 +108,11 @@ pub(crate) struct Stages {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Channel {
     pub(crate) expression: String,
-    /// Whether it is of one ray, and no mean.
+    /// Whether it belongs to one ray and is not a mean.
     pub(crate) is_of_one_ray: bool,
 }
 
-/// A shader and what it reads.
+/// A shader and the data that it reads.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shader {
     pub(crate) modules: Vec<Module>,
@@ -141,12 +141,12 @@ impl Shader {
         self.constants.push((name, value));
     }
 
-    /// Adds data that a module binds; `what` names them for a person.
+    /// Adds data that a module binds. `what` names them in messages.
     pub(crate) fn bind(&mut self, binding: u32, what: &'static str, data: Data) {
         self.data.push((binding, what, data));
     }
 
-    /// Whether another shader binds data of the same kinds at the same places.
+    /// Whether another shader binds data of the same kinds at the same bindings.
     pub(crate) fn binds_as(&self, other: &Self) -> bool {
         let kinds = |shader: &Self| {
             let kind = |(binding, _, data): &(u32, &str, Data)| (*binding, std::mem::discriminant(data));
@@ -164,7 +164,7 @@ impl Shader {
         text
     }
 
-    /// The text of a shader that searches an iso-surface and draws nothing.
+    /// The text of a shader that searches for an iso-surface and draws nothing.
     pub(crate) fn text_of_search(&self, precision: Precision) -> String {
         let mut text = self.modules_text(precision);
         self.stages.passed_wgsl(&mut text);
@@ -189,7 +189,7 @@ impl Shader {
 }
 
 impl Stages {
-    /// Appends the stage of cells that a search passes over.
+    /// Appends the stage of cells that a search skips.
     fn passed_wgsl(&self, text: &mut String) {
         let calls = self.passed.iter().map(|s| format!("side = max(side, {s}(cell));"));
         let lines = std::iter::once("var side = 0;".to_owned()).chain(calls);

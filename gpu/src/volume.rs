@@ -14,7 +14,7 @@ pub struct UploadedVolume {
     bytes: u64,
 }
 
-/// The power of two e with numbers · 2^−e in [−1, 1] ([GPU-1]).
+/// The power of two e for which numbers · 2^−e lie in [−1, 1] ([GPU-1]).
 pub(crate) fn scale_exponent(measured: &Measured) -> i32 {
     exponent(measured.numbers.largest)
 }
@@ -23,7 +23,7 @@ impl UploadedVolume {
     /// Uploads the numbers of a volume.
     ///
     /// # Errors
-    /// Numbers that do not fit in a texture or in the adapter's memory; f64 that the adapter does not have.
+    /// Numbers do not fit in a texture or in the adapter's memory, or the adapter has no f64.
     pub fn new(gpu: &Gpu, measured: &Measured, precision: Precision) -> Result<Self, GpuError> {
         if precision == Precision::Double && !gpu.has_double() {
             return Err(GpuError::NoDouble { adapter: gpu.name().to_owned() });
@@ -41,16 +41,16 @@ impl UploadedVolume {
         })
     }
 
-    /// The bytes of its numbers on the card.
+    /// Bytes of the volume's numbers on the card.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
 }
 
-/// The most numbers of a volume: places in lists of cells are counted in 31 bits.
+/// The largest number of numbers in a volume. Indices in lists of cells have 31 bits.
 const MOST_NUMBERS: usize = 1 << 31;
 
-/// Planes of numbers that wait for the adapter together.
+/// Number of planes that are uploaded together.
 const PLANES_AT_ONCE: usize = 16;
 
 /// A 3D texture of numbers times 2^−e. In f64 a texel has two parts.

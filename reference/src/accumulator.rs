@@ -1,8 +1,8 @@
-//! The one *over* ([VAL-3]).
+//! The only *over* operator ([VAL-3]).
 
 use crate::number::Arithmetic;
 
-/// Premultiplied colour C and opacity A of what lies in front, of one ray or of rays side by side.
+/// Accumulated premultiplied colour C and opacity A, of one ray or of rays side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Accumulator<T> {
     /// C, in the blend space.
@@ -12,13 +12,14 @@ pub(crate) struct Accumulator<T> {
 }
 
 impl<T: Arithmetic> Accumulator<T> {
-    /// An accumulator in which nothing has come together, of a given 0.
+    /// An empty accumulator, made from a given 0.
     #[inline(always)]
     pub(crate) fn empty(zero: T) -> Self {
         Self { rgb: [zero; 3], opacity: zero }
     }
 
-    /// Lays a straight colour c of opacity α behind what is there: w = (1 − A)·α, C ← C + w·c, A ← A + w. Returns w.
+    /// Composites a straight colour c of opacity α behind the accumulated one: w = (1 − A)·α, C ← C + w·c, A ← A + w.
+    /// Returns w.
     #[inline(always)]
     pub(crate) fn over(&mut self, rgb: [T; 3], alpha: T) -> T {
         let (w, opacity) = self.opacity.laid_before(alpha);
@@ -27,7 +28,7 @@ impl<T: Arithmetic> Accumulator<T> {
         w
     }
 
-    /// Lays a straight colour behind what is there in the lanes of a mask.
+    /// Like [`over`](Self::over), in the lanes of a mask.
     #[inline(always)]
     pub(crate) fn over_where(&mut self, mask: T::Mask, rgb: [T; 3], alpha: T) {
         let mut with = *self;
@@ -38,7 +39,8 @@ impl<T: Arithmetic> Accumulator<T> {
         self.opacity = T::select(mask, with.opacity, self.opacity);
     }
 
-    /// Lays a premultiplied colour B of opacity A_B behind what is there: C ← C + (1 − A)·B, A ← A + (1 − A)·A_B ([IO-6]).
+    /// Composites a premultiplied colour B of opacity A_B behind the accumulated one: C ← C + (1 − A)·B, A ← A + (1 −
+    /// A)·A_B ([IO-6]).
     #[inline(always)]
     pub(crate) fn over_premultiplied(&mut self, [r, g, b, opacity]: [T; 4]) {
         let through = self.opacity.one() - self.opacity;
@@ -46,7 +48,7 @@ impl<T: Arithmetic> Accumulator<T> {
         self.opacity = self.opacity + through * opacity;
     }
 
-    /// Lays an opaque colour behind what is there, after which A is 1 exactly. Returns w = 1 − A.
+    /// Composites an opaque colour behind the accumulated one, after which A is exactly 1. Returns w = 1 − A.
     #[inline(always)]
     pub(crate) fn end(&mut self, rgb: [T; 3]) -> T {
         let w = self.opacity.one() - self.opacity;

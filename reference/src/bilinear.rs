@@ -2,7 +2,8 @@
 
 use crate::number::Real;
 
-/// The cell min(⌊x⌋, max(n − 2, 0)) of a coordinate clamped to [0, n − 1], among n places, and the place in it.
+/// The cell min(⌊x⌋, max(n − 2, 0)) of a coordinate clamped to [0, n − 1], among n places, and the fraction in the
+/// cell.
 #[inline]
 pub(crate) fn cell<R: Real>(x: R, n: usize) -> (usize, R) {
     let end = R::from_f64((n - 1) as f64);

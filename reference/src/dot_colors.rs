@@ -1,4 +1,4 @@
-//! Dots in the colours of a transfer function, with a layer for each pen or each of a few colours ([STIP-16]).
+//! Dots in the colours of a transfer function, with one layer for each pen or for each of a few colours ([STIP-16]).
 //!
 //! A colour belongs to a voxel, not to a frame: no dot changes its layer while a camera turns.
 
@@ -31,7 +31,7 @@ pub struct VoxelColors<'a> {
     /// Whether a dot has its label's colour whatever its value: the colour of the row's most opaque node, the first
     /// of equals.
     pub by_label: bool,
-    /// The values that V = 0 and V = 1 stand for ([STIP-1]).
+    /// The values at which V is 0 and 1 ([STIP-1]).
     pub range: [f64; 2],
 }
 

@@ -1,6 +1,6 @@
-//! The CPU truth of Drypoint: what a picture is, computed from the stored voxels to the framebuffer in f64.
+//! The CPU truth of Drypoint: pictures computed in f64, from the stored voxels to the framebuffer.
 //!
-//! This crate opens no file and knows no file format; what it reads and makes are plain types of `drypoint_scene`.
+//! This crate opens no file and knows no file format. Its input and output are plain types of `drypoint_scene`.
 
 mod accumulator;
 mod bilinear;

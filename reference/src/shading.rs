@@ -14,7 +14,7 @@ pub struct Phong<R> {
     light: Vec3<R>,
 }
 
-/// s, with whole numbers up to 64 told apart once and not at every sample ([PREC-4]).
+/// s, with integers up to 64 recognized once and not at every sample ([PREC-4]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Exponent<R> {
     Whole(u32),
@@ -41,8 +41,8 @@ impl<R: Real> Phong<R> {
         half_vector(self.light, v)
     }
 
-    /// c = c_u·(k_a + k_d·max(0, N·L)) + k_s·max(0, N·Ĥ)^s, the specular term 0 where N·L ≤ 0; white light, straight
-    /// colours, no clamp.
+    /// c = c_u·(k_a + k_d·max(0, N·L)) + k_s·max(0, N·Ĥ)^s. The specular term is 0 where N·L ≤ 0. Light is white,
+    /// colours are straight, and there is no clamp.
     #[inline(always)]
     pub fn shade<A: Elementary<Number = R>>(&self, c_u: [A; 3], n: Vec3<A>, half: Vec3<A>) -> [A; 3] {
         let n_l = n.dot(Vec3::constant(n.x, self.light));

@@ -35,7 +35,7 @@ pub(super) struct CompareArgs {
     flip: Option<f64>,
 }
 
-/// Parses a bound. NaN is none: every comparison would pass.
+/// Parses a bound. NaN is refused, because every comparison with it would pass.
 fn limit(text: &str) -> Result<f64, &'static str> {
     let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
     number.ok_or("a bound is a number of at least 0")

@@ -8,7 +8,7 @@ use crate::scene::counts::Counts;
 use crate::scene::shot::OutOfSight;
 use crate::scene::tables::{HatchIso, Hatching, Hidden, Iso, Outlines, Spacing};
 
-/// Warns if the first frame shows nothing. `made` is the counts of preparation and of the frame.
+/// Warns if the first frame shows nothing. `made` holds the counts of the preparation and of the frame.
 pub(super) fn warn_of_nothing(job: &Job, frame: &Frame, made: [&Counts; 2], talk: Talk) {
     let [dots, lines] = frame.marks();
     if frame.marks.is_some() && !job.draws_volume() && dots + lines == 0 {

@@ -23,7 +23,7 @@ pub(super) enum FrameFiles {
     One(PathBuf),
     /// All frames in one file.
     Animated(PathBuf),
-    /// A file a frame: the text before and after its number, and the number's digits.
+    /// One file for each frame: the text before and after the frame's number, and the number's digits.
     Numbered(PathBuf, [String; 2], usize),
 }
 
@@ -118,7 +118,7 @@ impl FrameFiles {
 
 /// Counts and times of drawing all frames.
 pub(super) struct DrawReport {
-    /// Counts of all frames together. Work done once counts once, and of buffers the largest.
+    /// Counts of all frames together. Work done once counts once. Of buffers, the largest counts.
     pub counts: Counts,
     /// Times of each frame.
     pub times: FrameTimes,

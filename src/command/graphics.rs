@@ -1,13 +1,13 @@
-//! The graphics card of a command, where the command is built with one.
+//! The graphics card of a command that is built with graphics.
 
 use super::Talk;
 use crate::Failure;
 use crate::gpu::Gpu;
 
-/// Opens the adapter, and notes which one it is. With `fast` its texture unit interpolates between voxels.
+/// Opens the adapter and notes its name. With `fast`, the texture unit interpolates between voxels.
 ///
 /// # Errors
-/// No adapter, or a command that was built without graphics.
+/// There is no adapter, or it gives no device, or its texture unit does not interpolate.
 #[cfg(feature = "gpu")]
 pub(super) fn open(talk: Talk, fast: bool) -> Result<Gpu, Failure> {
     use crate::gpu::Interpolation;
@@ -18,7 +18,7 @@ pub(super) fn open(talk: Talk, fast: bool) -> Result<Gpu, Failure> {
     Ok(gpu)
 }
 
-/// Says how to get a command with graphics.
+/// Fails, and tells how to get a command with graphics.
 ///
 /// # Errors
 /// Always.
@@ -29,11 +29,11 @@ pub(super) fn open(_: Talk, _: bool) -> Result<Gpu, Failure> {
     Err(Failure::new(what, "--backend gpu", remedy))
 }
 
-/// The settings of the knob `backend`, if it is among the knobs `only` of a sweep: the card with its texture unit, and with
-/// the shader's interpolation.
+/// The settings of the knob `backend`, if it is among the knobs `only` of a sweep. They are the card with the
+/// interpolation of its texture unit, and with that of the shader.
 ///
 /// # Errors
-/// Same errors as [`open`].
+/// The errors of [`open`].
 pub(super) fn knob(talk: Talk, only: &[String]) -> Result<Vec<(&'static str, Gpu)>, Failure> {
     if only.iter().all(|key| key != crate::cost::BACKEND) {
         return Ok(Vec::new());

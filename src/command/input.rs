@@ -22,7 +22,7 @@ pub(super) struct SetArgs {
     pub set: Vec<String>,
 }
 
-/// The volume behind a scene's name, for which the scene is drawn.
+/// The volume to draw by a scene, given after the scene's name.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(super) struct TemplateArgs {
     /// Volume to draw by the scene, in place of the scene's own; a scene without [volume] is a template and needs one
@@ -55,7 +55,7 @@ impl KeyFlag {
     }
 }
 
-/// Keys of what is read of a file, which must be known before there is a scene.
+/// Keys that decide which voxels of a file are read. They must be known before there is a scene.
 const READING: [&str; 3] = ["volume.raw", "volume.box", "volume.stride"];
 
 /// Everything on the command line that overrides a scene.
@@ -211,7 +211,7 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
     Ok(VerbInput { scene, volume: same.then_some(volume), counts })
 }
 
-/// Checks that a scene stands in front, and behind it a volume's file that is there.
+/// Checks that the first path is a scene, and the second one an existing volume file.
 fn check_pair(scene: &Path, volume: &Path) -> Result<(), Failures> {
     let order = "write the scene, then the volume: drypoint render template.toml head.nrrd";
     match (is_scene(scene), is_scene(volume)) {

@@ -57,7 +57,7 @@ impl PaintArgs {
         Ok(Done::Yes)
     }
 
-    /// The place of the object to paint: the one with the name asked for, or the only one with strokes.
+    /// Index of the object to paint: the one with the requested name, or the only one with strokes.
     fn object(&self, job: &Job) -> Result<usize, Failure> {
         let objects = || job.scene.objects.iter().enumerate().filter(|(_, object)| object.strokes.is_some());
         let names = || objects().map(|(_, object)| object.name.as_str()).collect::<Vec<_>>().join(", ");
@@ -83,7 +83,7 @@ impl PaintArgs {
     }
 }
 
-/// Tells the extent of each stroke, and the bricks of the selection.
+/// Reports the extent of each stroke, and the bricks of the selection.
 fn tell(talk: Talk, Painting { selection, painted }: &Painting) {
     for (i, painted) in painted.iter().enumerate() {
         note(talk, format_args!("stroke {i}: {} voxels, {} bricks changed", painted.voxels, painted.bricks));

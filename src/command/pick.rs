@@ -83,7 +83,7 @@ impl PickArgs {
     }
 }
 
-/// Parses a pixel: two whole numbers, separated by a comma.
+/// Parses a pixel: two integers, separated by a comma.
 fn pixel(text: &str) -> Result<[i64; 2], &'static str> {
     let whole = |text: &str| text.trim().parse().ok();
     let pixel = text.split_once(',').and_then(|(x, y)| Some([whole(x)?, whole(y)?]));
@@ -163,8 +163,8 @@ fn toml(v: DVec3, voxel: f64) -> String {
     format!("[{}]", v.to_array().map(|x| coordinate(x, voxel)).join(", "))
 }
 
-/// Returns a coordinate with six digits if they tell a hundredth of a unit, else with all. A coordinate of less than
-/// 10⁻⁹ units is 0.
+/// Returns a coordinate with six digits if they resolve a hundredth of a unit, else with all digits. A coordinate of
+/// less than 10⁻⁹ units becomes 0.
 fn coordinate(x: f64, unit: f64) -> String {
     if x.abs() < 1e-9 * unit {
         return "0".into();

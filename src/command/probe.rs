@@ -131,20 +131,20 @@ impl ProbeArgs {
     }
 }
 
-/// Longest line of standard input, in bytes: three numbers with every digit that an f64 can have, and blanks.
+/// Longest line of standard input, in bytes. It holds three numbers with every digit that an f64 can have, and blanks.
 const LINE: u64 = 4096;
 
-/// Bytes of memory for a byte of standard input. The shortest point has 6 bytes; it becomes a vector in a list that may
-/// have grown to twice its need.
+/// Bytes of memory for each byte of standard input. The shortest point has 6 bytes. It becomes a vector in a list that
+/// may have grown to twice the needed size.
 const POINT_PER_BYTE: u64 = 12;
 
-/// Most points that are reported one by one.
+/// Largest number of points that are reported one by one.
 const TOLD: usize = 20;
 
 /// Size of a block of output, in bytes.
 const PRINTED: usize = 1 << 16;
 
-/// Reads points from standard input, one a line, or returns failures for the first bad lines.
+/// Reads points from standard input, one on each line. Returns failures for the first bad lines.
 fn from_input() -> Result<Vec<DVec3>, Failures> {
     let (mut points, mut failures) = (Vec::new(), Vec::new());
     let mut input = std::io::BufReader::new(Metered::new(std::io::stdin().lock(), POINT_PER_BYTE));

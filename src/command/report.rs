@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Writes to standard output. A reader that has gone away is no error.
+/// Writes to standard output. A closed pipe is not an error.
 pub(super) fn print(text: &str) -> Outcome {
     write_out(&escaped(text))
 }
@@ -46,12 +46,12 @@ pub(super) fn say(text: impl std::fmt::Display) {
 }
 
 /// Escapes unprintable characters for a terminal: ESC becomes `\u{1b}`. A name with such characters could change
-/// colours or the writing direction around it. Line ends and tabs stay.
+/// colours or the writing direction around it. Line ends and tabs are kept.
 fn escaped(text: &str) -> String {
     with_escapes(text, |c| c.escape_unicode().to_string())
 }
 
-/// Escapes unprintable characters as JSON does, so that the value stays. They occur only in its strings.
+/// Escapes unprintable characters as JSON does, so that values are kept. These characters occur only in strings.
 fn escaped_json(text: &str) -> String {
     with_escapes(text, |c| format!("\\u{:04x}", u32::from(c)))
 }

@@ -1,14 +1,14 @@
-//! Signals that end the command. No unfinished file stays.
+//! Signals that end the command. Unfinished files are removed.
 
 use crate::scene::atomic;
 #[cfg(unix)]
 use std::sync::{Arc, atomic::AtomicBool};
 
 /// Ends the process on SIGINT, SIGTERM and SIGHUP, after removing unfinished files. The exit code is 128 plus the
-/// signal's number, as in shells: 130, 143 and 129. SIGXFSZ does not end it: the write beyond the limit of file sizes
-/// fails, and whoever writes reports that.
+/// signal's number, as in shells: 130, 143 and 129. SIGXFSZ does not end the process. Instead, the write beyond the
+/// limit of file sizes fails, and the writer reports the failure.
 ///
-/// An unfinished file stays, under a temporary name, if no handler can be set or no thread started.
+/// An unfinished file remains, under a temporary name, if no handler can be set or no thread started.
 #[cfg(unix)]
 pub(super) fn remove_unfinished_at_the_end() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
@@ -25,7 +25,7 @@ pub(super) fn remove_unfinished_at_the_end() {
 }
 
 /// Whether SIGHUP ends the process. `nohup` starts a program with SIGHUP ignored, which a handler would undo. If the
-/// system does not say whether it is ignored, SIGHUP is left alone.
+/// system does not tell whether SIGHUP is ignored, no handler is set.
 #[cfg(unix)]
 fn ends_on_hangup() -> bool {
     let ignored = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {

@@ -21,7 +21,8 @@ impl FrameTimes {
     }
 }
 
-/// Returns the counts on one line, with `times` if frames were repeated. Work not done counts 0 and is never left out.
+/// Returns the counts on one line, with `times` if frames were repeated. Work that was not done has the count 0 and is
+/// never left out.
 pub(super) fn line(mut counts: Counts, times: Option<&FrameTimes>) -> Result<String, Failure> {
     for quantity in ["differences", "gradients"] {
         counts.preprocess.entry(quantity.into()).or_default();

@@ -5,8 +5,8 @@ use super::{CostRow, ErrorSubject, Truth};
 /// Returns the Pareto-optimal rows, fastest first. No other row of the same subject and kind of truth is better in
 /// error or time and at least as good in both.
 ///
-/// Against the formula all rows have one truth. Against finest settings a row's error is what its own knob adds, and
-/// the front says which knob to turn first. A row without error is its own truth and is on no front.
+/// Against the formula all rows have one truth. Against finest settings a row's error is the error of its own knob, and
+/// the front tells which knob to change first. A row without error is its own truth and is on no front.
 pub fn front(rows: &[CostRow], subject: ErrorSubject, analytic: bool) -> Vec<&CostRow> {
     let mut of_kind: Vec<&CostRow> = rows
         .iter()

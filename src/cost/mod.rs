@@ -1,7 +1,7 @@
-//! Cost of accuracy: every knob of a scene turned from coarse to fine, error against time ([COST-1] … [COST-3]).
+//! Cost of accuracy: error against time for every knob of a scene, from coarse to fine ([COST-1] … [COST-3]).
 //!
-//! One knob is turned at a time; all other keys stay as in the scene. A row is a setting: its error against the truth,
-//! its time, what it evaluates and keeps.
+//! One knob is changed at a time; all other keys stay as in the scene. A row is a setting: its error against the truth,
+//! its time, its samples and its bytes.
 //!
 //! **Truth** ([COST-2]). The field of a phantom is known. Knobs of the field (step, kernel, gradient, Hessian, κ)
 //! decide how close samples come to it. They are compared with one picture of the phantom's formula and its exact
@@ -9,8 +9,8 @@
 //! the rest is due to the voxels. Other knobs (rays a pixel, number type, early termination, biases of mip-maps) are
 //! compared with the same scene at the finest setting. So is every knob of a field that is not known.
 //!
-//! With `picture.samples = "auto"` a setting can change which pixels are refined at edges, which is then part of its error.
-//! Scenes of one ray a pixel measure a knob alone.
+//! With `picture.samples = "auto"` a setting can change which pixels are refined at edges. This is then part of its
+//! error. Scenes with one ray for each pixel measure a knob alone.
 //!
 //! **Error** of a knob's output, by its subject ([`ErrorSubject`]):
 //! - A picture as written, with its background, in linear premultiplied light: RMS and largest difference over R, G, B
@@ -67,7 +67,7 @@ use statistics::quartiles;
 use std::fmt;
 use variant::{SettingOutput, TimedVariant, take_turn, together};
 
-/// The key of the knob that is the renderer of the volume.
+/// The key of the knob that selects the renderer of the volume.
 pub const BACKEND: &str = "backend";
 
 /// The finest setting of [`BACKEND`].
@@ -78,7 +78,7 @@ const REFERENCE: &str = "reference";
 pub struct SweepOptions {
     /// Number of times each setting is timed after the warm-up; at least 1.
     pub runs: usize,
-    /// Keys of the knobs to turn; empty: all knobs that the scene uses.
+    /// Keys of the knobs to change. Empty stands for all knobs that the scene uses.
     pub only: Vec<String>,
 }
 
@@ -88,7 +88,7 @@ impl Default for SweepOptions {
     }
 }
 
-/// The truth that an error is measured against.
+/// The truth against which an error is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// The phantom's formula, at the finest settings.
@@ -133,12 +133,12 @@ impl ErrorSubject {
     }
 }
 
-/// A setting of a knob, and what it costs.
+/// A setting of a knob, with its error and its cost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CostRow {
     /// The scene key.
     pub knob: String,
-    /// The output that the error is measured on.
+    /// The output on which the error is measured.
     pub subject: ErrorSubject,
     /// The setting.
     pub setting: String,
@@ -152,23 +152,23 @@ pub struct CostRow {
     pub flip: f64,
     /// Median angle between strokes of hatching at equal arc lengths, in degrees.
     pub angle: Option<f64>,
-    /// Median seconds of a frame; for dots and strokes with the work done once.
+    /// Median seconds of a frame. For dots and strokes it includes the work done once.
     pub seconds: f64,
     /// Seconds between the quartiles.
     pub spread: f64,
     /// Samples evaluated.
     pub samples: u64,
-    /// Bytes of all buffers: the volume, what was prepared, the picture.
+    /// Bytes of all buffers: the volume, prepared data, the picture.
     pub bytes: u64,
-    /// The truth that the error is measured against.
+    /// The truth against which the error is measured.
     pub truth: Truth,
 }
 
 /// The result of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sweep {
-    /// Rows in the order of the scene's tables, each knob from coarse to fine. A setting of the scene that is none of
-    /// the knob's comes first.
+    /// Rows in the order of the scene's tables, each knob from coarse to fine. If the scene's own setting is not one of
+    /// the knob's settings, it comes first.
     pub rows: Vec<CostRow>,
     /// Settings that cannot be rendered: knob, setting and reason.
     pub left_out: Vec<(String, String, Failure)>,
@@ -180,11 +180,11 @@ pub struct Sweep {
     pub size: [usize; 2],
 }
 
-/// Turns every knob of a job's scene. `cards` are graphics cards with their names, from coarse to fine: settings of the knob
-/// [`BACKEND`], whose finest is the reference. `progress` gets the finished share.
+/// Changes every knob of a job's scene. `cards` are graphics cards with their names, from coarse to fine. They are
+/// settings of the knob [`BACKEND`], whose finest setting is the reference. `progress` receives the finished share.
 ///
 /// # Errors
-/// A key in `only` that is no knob of the scene, or a truth that cannot be drawn.
+/// A key in `only` is not a knob of the scene, or a truth cannot be drawn.
 pub fn sweep(
     job: &Job,
     options: &SweepOptions,

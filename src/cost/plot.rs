@@ -1,5 +1,5 @@
-//! Plots of sweeps ([COST-1]): a panel a knob, error against time on two logarithmic axes that all panels share. Each
-//! setting is named; the other knobs and the Pareto front are pale behind it.
+//! Plots of sweeps ([COST-1]): a panel for each knob, error against time on two logarithmic axes that all panels share.
+//! Each setting is labelled. The other knobs and the Pareto front are drawn in pale colours behind.
 
 use super::{CostRow, ErrorSubject, Sweep, Truth, front};
 use kuva::backend::png::PngBackend;
@@ -20,17 +20,17 @@ const FRONT: &str = "#d4d4d4";
 /// Colour of the settings of other knobs.
 const OTHERS: &str = "#c0c0c0";
 
-/// Smallest error and time that a logarithmic axis shows.
+/// Smallest error and time on a logarithmic axis.
 const LEAST: f64 = 1e-9;
 
-/// Most panels in a row, and width and height of a panel in the plot's units.
+/// Largest number of panels in a row, and width and height of a panel in the plot's units.
 const COLUMNS: usize = 3;
 const PANEL: [f64; 2] = [400.0, 330.0];
 
 /// The unit of settings that are lengths, behind their numbers.
 const VOXELS: &str = " voxels";
 
-/// Pixels of the PNG in a unit of the plot.
+/// Pixels of the PNG for each unit of the plot.
 const SCALE: f32 = 1.25;
 
 /// Returns the plot as SVG, in the viewer's font.

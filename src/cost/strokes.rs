@@ -10,19 +10,20 @@ use std::collections::BTreeMap;
 /// Longest piece of a stroke, in voxels.
 const PIECE: f64 = 0.1;
 
-/// Share of strokes, the nearest ones, whose distances count. The others end elsewhere, or part where lines of
-/// curvature meet, and are then as far away as they are long, whatever the setting.
+/// Share of strokes, the nearest ones, whose distances count. The others end elsewhere, or separate where lines of
+/// curvature meet. They are then as far away as they are long, whatever the setting.
 const TOGETHER: f64 = 0.95;
 
 /// Strokes that a setting draws.
 pub(super) struct DrawnStrokes {
-    /// Some strokes of hatching as they grow, whether or not the camera sees them.
+    /// Some strokes of hatching as they grow, including those that the camera does not see.
     pub(super) strokes: Option<Vec<Stroke>>,
     /// All marks on the page.
     pub(super) marks: Marks,
 }
 
-/// Returns the distances of strokes to others in voxels, and their angle in degrees; none if there is nothing to compare. Hatching is compared stroke by stroke, by seed; other lines as lists.
+/// Returns the distances of strokes to others in voxels, and their angle in degrees. Hatching is compared stroke by stroke,
+/// by seed; other lines as lists. Returns none if there is nothing to compare.
 pub(super) fn distances(drawn: &DrawnStrokes, truth: &DrawnStrokes, voxel: f64) -> Option<(LineDistance, Option<f64>)> {
     let (Some(a), Some(b)) = (&drawn.strokes, &truth.strokes) else {
         let LineDistance { rms, max } = line_distance(lines(&drawn.marks), lines(&truth.marks), PIECE * voxel)?;

@@ -11,9 +11,9 @@ pub enum SweepFormat {
     Csv,
     /// The table for people.
     Markdown,
-    /// The plot in lines and letters, in the viewer's font.
+    /// The plot as vectors, in the viewer's font.
     Svg,
-    /// The plot in pixels, with a font of its own.
+    /// The plot in pixels, in its own font.
     Png,
 }
 

@@ -6,7 +6,7 @@ use super::{CostRow, ErrorSubject, Sweep, front};
 /// Columns of the CSV, a documented format.
 const COLUMNS: &str = "knob,setting,rms,max,flip,seconds,spread,samples,bytes,truth,angle";
 
-/// Returns a line a setting under a line of names. Numbers have all significant digits.
+/// Returns a line with names, then one line for each setting. Numbers have all significant digits.
 pub fn csv(sweep: &Sweep) -> String {
     let mut text = format!("{COLUMNS}\n");
     for row in &sweep.rows {

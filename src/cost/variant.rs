@@ -29,12 +29,12 @@ pub(super) const FEW: usize = 3;
 /// Number of strokes of a setting that are compared.
 const STROKES: usize = 2000;
 
-/// A scene that is drawn and timed, whichever settings lead to it.
+/// A scene that is drawn and timed. Several settings may lead to it.
 pub(super) struct TimedVariant<'a> {
     job: &'a Job,
     pub(super) subject: ErrorSubject,
     pub(super) knobs: &'a KnobVariant,
-    /// The graphics card that draws the volume; none: the reference.
+    /// The graphics card that draws the volume; none stands for the reference.
     pub(super) card: Option<&'a Gpu>,
     /// Renderer for the next turn, if it may be kept.
     renderer: Option<Box<dyn Frames + 'a>>,
@@ -129,7 +129,8 @@ impl<'a> TimedVariant<'a> {
     }
 }
 
-/// Returns groups of variants that take turns together: dots of the same points, which are made once for the group.
+/// Returns groups of variants that take turns together. Dots of the same points form a group, whose points are made
+/// once.
 pub(super) fn together(variants: &[TimedVariant<'_>]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (at, variant) in variants.iter().enumerate() {

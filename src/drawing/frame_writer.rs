@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
-/// Bytes of memory, until it is written, for a vertex of a stroke that fills a dot.
+/// Bytes of memory for a vertex of a stroke that fills a dot, until the stroke is written.
 const FILLING_VERTEX: u64 = 3 * size_of::<Vertex>() as u64;
 
 /// The error that ended an animation before its last frame.
@@ -199,10 +199,10 @@ impl<'a> FrameWriter<'a> {
         self.scene.page.as_ref().is_some_and(|page| page.plotter)
     }
 
-    /// Returns marks as they are drawn: for a plotter its plan.
+    /// Returns marks as they are drawn. With a plotter these are the marks of its plan.
     ///
     /// # Errors
-    /// Dots so large for the nib that the memory budget does not allow the strokes that fill them.
+    /// Dots are so large for the nib that the memory budget does not allow the strokes that fill them.
     fn planned<'m>(&self, marks: &'m Marks) -> Result<PlannedMarks<'m>, Failure> {
         if !self.plotter() {
             let written = WriteReport { marks: mark_counts(&marks.layers), notes: Vec::new() };

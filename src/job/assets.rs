@@ -20,19 +20,19 @@ use std::sync::Arc;
 
 /// The data that the function and the material of an object name.
 pub(crate) struct Assets {
-    /// The transfer function, if something reads it. It shows nothing in a scene without one.
+    /// The transfer function, if it is needed. In a scene without a function, it shows nothing.
     pub(super) function: Option<Arc<Function>>,
-    /// The label volume, if something reads it.
+    /// The label volume, if it is needed.
     pub(crate) labels: Option<LabelVolume>,
-    /// The further volumes that the function is over.
+    /// The further volumes over which the function is.
     pub(super) further: [Option<Volume>; 2],
     /// The styles that the function names, then those of caps.
     pub(crate) styles: Vec<Style>,
 }
 
 impl Assets {
-    /// Loads what the tables of an object name, over its volume. Of a part `main` is the grid of `[volume]`. A function
-    /// without nodes is found in the data, and names of labels become ids. Faults go to `failures`.
+    /// Loads the data that the tables of an object name, over its volume. For a part, `main` is the grid of `[volume]`.
+    /// A function without nodes is found in the data, and names of labels become ids. Adds faults to `failures`.
     pub(super) fn load(
         source: &dyn Source,
         tables: &mut Scene,

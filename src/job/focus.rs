@@ -9,12 +9,12 @@ use drypoint_scene::picture::LayerKind;
 use drypoint_scene::plan::halos_in_effect;
 use drypoint_scene::tables::Scene;
 
-/// Points of the foci that were picked, each with the place of its halo in the list.
+/// Points of the picked foci, each with the index of its halo.
 type PickedFoci = Vec<(usize, Vec<DVec3>)>;
 
 impl Job {
-    /// Puts the points that are seen at pixels in place of the pixels of foci. The pixels are those of the scene's own
-    /// camera, and halos themselves are not seen. Halos without an effect keep their pixels.
+    /// Replaces the pixels of foci by the points that are visible there. The pixels are those of the scene's own
+    /// camera, and halos themselves are invisible to picking. Halos without an effect keep their pixels.
     pub(super) fn pick_foci(&mut self) -> Result<(), Failures> {
         for (halo, points) in self.picked_foci()? {
             if let Some(focus) = &mut self.scene.halos[halo].seed.focus {

@@ -1,4 +1,4 @@
-//! Iso-values that a scene leaves to its volume.
+//! Automatic iso-values, which come from the volume.
 
 use drypoint_reference::suggest;
 use drypoint_scene::counts::Counts;

@@ -1,4 +1,4 @@
-//! Loading of a job's data: the volume and further ones, styles, and a picture behind.
+//! Loading of a job's data: the volume and further ones, styles, and a background picture.
 
 use super::room;
 use super::target::RenderTarget;
@@ -103,7 +103,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
     Failure::new(error, given.position(&key), remedy)
 }
 
-/// Returns the remedy of a label's name that nothing has.
+/// Returns the remedy for a label's name that does not exist.
 pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
     match names.nearest(name) {
         Some(nearest) => format!("write {nearest:?}"),
@@ -112,7 +112,7 @@ pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
     }
 }
 
-/// Puts ids in place of the names of labels that seed halos. Names that no label has go to `failures`.
+/// Replaces the names of labels that seed halos by ids. Names that no label has go to `failures`.
 pub(super) fn halo_labels(scene: &mut Scene, names: &LabelNames, is_part: bool, failures: &mut Vec<Failure>) {
     // Those of an object's own data are names there.
     let elsewhere = |halo: &Halo| halo.object.as_ref().is_some_and(|part| scene.own_data_of(part).is_some());

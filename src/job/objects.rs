@@ -31,11 +31,11 @@ pub(crate) struct Objects {
     pictures: Vec<Option<IntersectionPicture>>,
 }
 
-/// A selection or a ghost with everything that its function and its material name.
+/// A selection or a ghost with all data that its function and its material name.
 struct ObjectPart {
     object: usize,
     role: Role,
-    /// Its tables ([`Scene::of_part`]), with the function that was found and the ids of labels.
+    /// Its tables ([`Scene::of_part`]), with automatic functions and label ids resolved.
     tables: Scene,
     volume: Arc<Volume>,
     assets: Assets,
@@ -43,19 +43,19 @@ struct ObjectPart {
     grid: Grid,
 }
 
-/// Tables of the picture's scene as it gives them, for objects with data of their own.
+/// Tables of the picture's scene before they are resolved, for objects with data of their own.
 pub(super) struct Given {
-    /// The function. An automatic one is found from their data.
+    /// The function. An automatic one is found from the objects' own data.
     pub(super) transfer: Option<Transfer>,
-    /// The halos. Names of labels are theirs.
+    /// The halos. Names of labels are those of the objects' own data.
     pub(super) halos: Vec<Halo>,
 }
 
 impl Objects {
-    /// Loads the objects of a job, of which everything else is loaded.
+    /// Loads the objects of a job whose other data are loaded.
     ///
     /// # Errors
-    /// Data that cannot be read, a part that draws nothing, and faults of its function and its material.
+    /// Data cannot be read, a part draws nothing, or its function or material is faulty.
     pub(super) fn load(main: &Job, given: &Given) -> Result<Self, Failures> {
         let (scene, volume, source) = (&main.scene, &main.volume, &*main.source);
         let mut own: Vec<Option<Arc<Volume>>> = Vec::new();
@@ -123,7 +123,7 @@ impl Objects {
         self.parts.iter().map(|part| &part.volume)
     }
 
-    /// Flaws of objects: those that select nothing.
+    /// Warnings of objects that select nothing.
     pub(super) fn warnings(&self, scene: &Scene) -> impl Iterator<Item = String> {
         // A selection by value has values between voxels, too.
         let is_empty =
@@ -148,7 +148,7 @@ impl Objects {
         found
     }
 
-    /// Adds the objects to the shot of a scene that differs from the job's in its knobs alone.
+    /// Adds the objects to the shot of a scene that differs from the job's only in its knobs.
     pub(super) fn add_to(
         &self,
         shot: Shot,
@@ -172,7 +172,7 @@ impl Objects {
         shot.with_objects(scene, main, range, &self.facts, &facts).map_err(|error| shot_failure(&error, scene))
     }
 
-    /// Adds the data that a shot names of objects to those of its main volume.
+    /// Adds the objects' data that a shot names to the data of its main volume.
     pub(super) fn inputs<'a>(&'a self, shot: &Shot, inputs: Inputs<'a>) -> Inputs<'a> {
         let Some(combination) = shot.combination.as_ref() else { return inputs };
         Inputs {
@@ -185,7 +185,7 @@ impl Objects {
 }
 
 impl ObjectPart {
-    /// The part's scene with the settings of the picture's, and its plan.
+    /// The part's scene with the settings of the picture's scene, and its plan.
     fn scene_of(&self, scene: &Scene) -> (Scene, Plan) {
         let mut of_part = scene.of_part(self.object, self.role);
         of_part.transfer = self.tables.transfer.clone();
@@ -207,7 +207,7 @@ impl ObjectPart {
     }
 }
 
-/// The selection volume of an object; none if it is one without.
+/// The selection volume of an object. Returns none if the object has none.
 fn selection(
     source: &dyn Source,
     scene: &Scene,

@@ -1,4 +1,4 @@
-//! Selections that strokes of a scene paint ([VS-6]).
+//! Selections painted by the strokes of a scene ([VS-6]).
 
 use super::Job;
 use super::focus::nothing_seen;
@@ -13,16 +13,16 @@ use drypoint_scene::tables::{PaintMode, PaintStroke, PaintTarget, Role, Scene};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::{Anatomy, Selection};
 
-/// A selection, and what was painted.
+/// A selection, and the extent of its strokes.
 #[derive(Clone, Debug)]
 pub struct Painting {
     /// The selection, on the grid of the object's data.
     pub selection: Selection,
-    /// The extent of each stroke; of basins that were flooded together the first stroke has it all.
+    /// The extent of each stroke. Basins that were flooded together count for the first stroke.
     pub painted: Vec<Painted>,
 }
 
-/// The ground of strokes: an object's data as a picture of its own.
+/// The target of strokes: an object's data as a separate picture.
 struct Canvas<'a> {
     job: &'a Job,
     scene: Scene,
@@ -32,15 +32,15 @@ struct Canvas<'a> {
 }
 
 impl Job {
-    /// Paints the strokes of an object onto its data. An object on the data of `[volume]` is painted as the picture shows
-    /// these data without objects; one with data of its own, as the object shows them.
+    /// Paints the strokes of an object onto its data. If the object has the data of `[volume]`, they are shown as in
+    /// the picture without objects. If it has data of its own, they are shown as the object shows them.
     ///
     /// # Errors
-    /// A seed outside the data or on a hidden voxel, a pixel at which nothing is seen, data that cannot be read, or memory
-    /// that the budget does not allow.
+    /// A seed lies outside the data or on a hidden voxel, nothing is visible at a pixel, data cannot be read, or the
+    /// memory budget does not allow the memory.
     ///
     /// # Panics
-    /// If there is no object of this place.
+    /// If there is no object with this index.
     pub fn paint(&self, object: usize) -> Result<Painting, Failures> {
         let table = &self.scene.objects[object];
         let strokes = table.strokes.as_deref().unwrap_or_default();
@@ -99,7 +99,7 @@ impl Canvas<'_> {
         Failures::check(failures).map(|()| points)
     }
 
-    /// Paints strokes at their points. `voxel` is that of `[volume]`, in which lengths are measured.
+    /// Paints strokes at their points. `voxel` is the voxel of `[volume]`, the unit of lengths.
     fn painted(&self, strokes: &[PaintStroke], points: &[DVec3], voxel: f64) -> Result<Painting, Failures> {
         let volume = &self.job.volume;
         let Some(function) = self.job.assets.function.as_ref().filter(|_| self.scene.transfer.is_some()) else {
@@ -135,7 +135,7 @@ impl Canvas<'_> {
         Ok(Painting { selection, painted })
     }
 
-    /// The failure of the stroke at a place in the list, or of a later one that is flooded with it.
+    /// The failure of the stroke with index `first`, or of a later one that is flooded with it.
     fn refused(&self, first: usize, stroke: &PaintStroke, error: &PaintError) -> Failure {
         let key = if matches!(stroke.target, PaintTarget::Grow(_)) { "grow" } else { "watershed" };
         match error {

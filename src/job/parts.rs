@@ -16,10 +16,10 @@ pub(super) fn reads_function(scene: &Scene) -> bool {
     scene.transfer.is_some() && scene.volume.parts.as_ref().is_some_and(|table| table.at_least.is_none())
 }
 
-/// Takes the parts that a scene does not keep out of its volume. Number and sizes of all parts go to `counts`.
+/// Removes the parts that a scene does not keep from its volume. Number and sizes of all parts go to `counts`.
 ///
-/// A voxel is shown if its value reaches `at_least`, or else if the function can show it, with any second quantity.
-/// Without a function, the value to reach is the first iso-value of the scene.
+/// A voxel is shown if its value reaches `at_least`. Without `at_least`, it is shown if the function can show it, with
+/// any second quantity. Without a function, the value to reach is the first iso-value of the scene.
 pub(super) fn isolate(
     scene: &Scene,
     function: Option<&Function>,
@@ -57,7 +57,7 @@ pub(super) fn isolate(
     Ok(volume)
 }
 
-/// The value that voxels of parts reach, if it is not the function that shows them.
+/// The value that voxels of parts must reach. Returns none if the function decides.
 fn least(scene: &Scene, table: &PartsTable, volume: &Volume, counts: &mut Counts) -> Option<f64> {
     if table.at_least.is_some() || scene.transfer.is_some() {
         return table.at_least;

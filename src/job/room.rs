@@ -53,14 +53,14 @@ pub(super) fn room_for_halos(scene: &Scene, bytes: u64) -> Result<(), Failure> {
     })
 }
 
-/// Checks that the memory budget allows the picture of a scene: its channels, as much again for encoding them, and `more`
-/// bytes a pixel.
+/// Checks that the memory budget allows the picture of a scene: its channels, as much again for encoding them, and
+/// `more` bytes for each pixel.
 pub(crate) fn room_for_picture(scene: &Scene, more: usize) -> Result<(), Failure> {
     let channels: usize = scene.picture.layers.iter().map(|layer| layer.channels().len()).sum();
     room(scene, 2 * size_of::<f64>() * channels + more)
 }
 
-/// Checks that the memory budget allows `bytes` bytes a pixel.
+/// Checks that the memory budget allows `bytes` bytes for each pixel.
 pub(crate) fn room(scene: &Scene, bytes: usize) -> Result<(), Failure> {
     let [width, height] = scene.picture.size;
     let needed = [width, height, bytes].into_iter().fold(1u64, |product, n| product.saturating_mul(n as u64));

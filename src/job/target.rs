@@ -51,7 +51,7 @@ pub(super) fn plan_for(scene: &Scene, target: RenderTarget) -> Plan {
     }
 }
 
-/// Whether something reads the transfer function: rays, dots with its colours, strokes in what it shows, or parts.
+/// Whether the transfer function is needed: by rays, dots in its colours, strokes in its visible regions, or parts.
 pub(super) fn calls_for_function(plan: &Plan, scene: &Scene) -> bool {
     let passes = [Pass::Rays, Pass::DotColors, Pass::SeenCells];
     passes.into_iter().any(|pass| plan.has_pass(pass)) || parts::reads_function(scene)

@@ -1,4 +1,4 @@
-//! Objects within the shader of their picture ([VS-2]): each part is a shader of its own, attached to the picture's.
+//! Objects within the shader of their picture ([VS-2]). Each part is a shader of its own, attached to the picture's.
 
 use super::{camera as camera_of, of_volume};
 use crate::block::ParamBlock;
@@ -13,16 +13,16 @@ use drypoint_scene::shot::{Combination, Cut, HaloSeed, Membership, Object, Part,
 use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Anatomy;
 
-/// Places of the parts of a shot; parts whose selection has no members are left out.
+/// Places of the parts of a shot. Parts whose selection has no members are left out.
 #[derive(Default)]
 pub(crate) struct PlacesOfObjects(Vec<PlacedPart>);
 
 struct PlacedPart {
-    /// Its place among the shot's parts.
+    /// Index of the part in the shot.
     part: usize,
-    /// The place of its data.
+    /// Place of the part's data.
     place: GridPlacement,
-    /// The place of the memberships of its selection, with the box in which there can be members.
+    /// Place of the memberships of the part's selection. Its box is the one in which there can be members.
     selection: GridPlacement,
 }
 
@@ -83,16 +83,16 @@ impl PlacedPart {
         })
     }
 
-    /// The end of a part's names in the picture's shader.
+    /// The suffix of a part's names in the picture's shader.
     fn suffix(&self) -> String {
         objects::suffix(self.part)
     }
 }
 
-/// The end of a selection's names in the shader of a part.
+/// The suffix of a selection's names in the shader of a part.
 const OF_SELECTION: &str = "_of_selection";
 
-/// Adds the objects of a shot, after all else.
+/// Adds the objects of a shot, after everything else.
 pub(super) fn add(
     shader: &mut Shader,
     shot: &Shot,
@@ -155,7 +155,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The numbers of objects that depend on the camera, beside the volume at its own place.
+/// The numbers of objects that depend on the camera. `own` is the place of the picture's volume.
 pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &GridPlacement) -> Result<ParamBlock, GpuError> {
     let mut block = ParamBlock::default();
     let Some(combination) = &shot.combination else { return Ok(block) };
@@ -172,7 +172,7 @@ pub(crate) fn camera(shot: &Shot, places: &PlacesOfObjects, own: &GridPlacement)
     Ok(block)
 }
 
-/// A part as a shot of its own.
+/// A part as a separate shot.
 fn shot_of(shot: &Shot, place: usize, part: &Part) -> Shot {
     let mut of_part = Shot {
         objects: vec![shot.objects[place + 1].clone()],

@@ -1,4 +1,4 @@
-//! Voxels that are no numbers ([PREC-2], [GPU-7]).
+//! Voxels that are not finite ([PREC-2], [GPU-7]).
 
 use crate::module::module;
 use crate::shader::{Constant, Data, Shader};
@@ -14,7 +14,7 @@ pub(crate) fn words(mask: &Mask, [nx, ny, nz]: [usize; 3]) -> Vec<u32> {
     words
 }
 
-/// Adds the cells that nothing is sampled in.
+/// Adds the masked cells, in which nothing is sampled.
 pub(crate) fn add(shader: &mut Shader, mask: &Mask, grid: &Grid) {
     let [nx, ny, _] = grid.dims();
     shader.add(&[module!("mask")]);

@@ -11,12 +11,12 @@ use drypoint_scene::math::{exponent, scale_by_power_of_two};
 use drypoint_scene::measured::Measured;
 use drypoint_scene::space::Grid;
 
-/// The powers of two that a shader's numbers are divided by.
+/// The powers of two by which a shader's numbers are divided.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales {
     /// e: values minus the base are divided by 2^e.
     pub(crate) value: i32,
-    /// Gradients are divided by 2 to this.
+    /// Gradients are divided by 2 to this power.
     pub(crate) gradient: i32,
     /// D⁻ᵀ with 0 for axes of length 1, divided by 2^(gradient − value).
     pub(crate) to_world: DMat3,
@@ -34,27 +34,27 @@ impl Scales {
         Self { value, gradient: value + e, to_world, base: measured.base }
     }
 
-    /// A value as the shader has it.
+    /// Converts a value to the shader's scale.
     pub(crate) fn value(&self, value: f64) -> f64 {
         scale_by_power_of_two(value - self.base, -self.value)
     }
 
-    /// A difference of values as the shader has it.
+    /// Converts a difference of values to the shader's scale.
     pub(crate) fn difference(&self, difference: f64) -> f64 {
         scale_by_power_of_two(difference, -self.value)
     }
 
-    /// The value that the shader has as `number`.
+    /// Converts a number of the shader to a value.
     pub(crate) fn to_value(self, number: f64) -> f64 {
         scale_by_power_of_two(number, self.value) + self.base
     }
 
-    /// A gradient's magnitude, in values per world unit, as the shader has it.
+    /// Converts a gradient's magnitude, in values per world unit, to the shader's scale.
     pub(crate) fn gradient(&self, g: f64) -> f64 {
         scale_by_power_of_two(g, -self.gradient)
     }
 
-    /// The world's 1/length over that of the shader's curvatures, a Hessian over a gradient.
+    /// The ratio of 1/length in the world to the shader's unit of curvature, which is a Hessian over a gradient.
     pub(crate) fn curvature_unit(&self) -> f64 {
         scale_by_power_of_two(1.0, self.gradient - self.value)
     }

@@ -11,7 +11,7 @@ const TONES: u32 = 6;
 /// Numbers of a tone.
 const TONE: usize = 4;
 
-/// Adds tones with hard steps. Those of an iso-surface stand behind those of samples.
+/// Adds tones with hard steps. The tones of an iso-surface follow those of samples.
 pub(crate) fn add_toon(shader: &mut Shader, toon: &ToonParams, of: LitColors) {
     shader.add(&[module!("toon")]);
     shader.block.vector(of.light(), toon.light);
@@ -42,7 +42,7 @@ pub(crate) fn add_toon(shader: &mut Shader, toon: &ToonParams, of: LitColors) {
     of.push(shader, ["shade_toon", "shade_surface_by_toon"]);
 }
 
-/// Adds black silhouettes, by the offset of their test.
+/// Adds black silhouettes, with the offset of their test.
 pub(crate) fn add_silhouette(shader: &mut Shader, offset: f64, of: LitColors) {
     shader.add(&[module!("silhouette")]);
     shader.block.number(of.number("silhouette_offset"), offset);

@@ -1,4 +1,4 @@
-//! Meshes of triangles, at which rays end ([VS-12]).
+//! Meshes of triangles, where rays end ([VS-12]).
 
 use crate::inputs::ObjectInputs;
 use crate::module::module;
@@ -9,10 +9,10 @@ use drypoint_scene::mesh::{BoxNode, TriangleMesh};
 use drypoint_scene::shot::{Lighting, Shot};
 use drypoint_scene::space::Grid;
 
-/// The largest index coordinate of a vertex, so that no area of a triangle overflows in f32.
+/// The largest index coordinate of a vertex. With it no area of a triangle overflows in f32.
 const FARTHEST: f64 = 1e9;
 
-/// Adds the meshes of a shot, which rays meet before an iso-surface. `value` is the value 0 in the shader's numbers.
+/// Adds the meshes of a shot, before an iso-surface is added. `value` is the value 0 in the shader's numbers.
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
@@ -56,7 +56,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// Adds the search for the nearest mesh, after that for an iso-surface.
+/// Adds the search for the nearest mesh, after the search for an iso-surface.
 pub(crate) fn add_search(shader: &mut Shader) {
     shader.stages.begin_ray.push("find_mesh");
 }
@@ -66,7 +66,7 @@ fn vertices(meshes: &[TriangleMesh], grid: &Grid) -> Vec<DVec3> {
     meshes.iter().flat_map(TriangleMesh::positions).map(|&p| grid.to_index(p)).collect()
 }
 
-/// The unit normals of all vertices; 0 for none.
+/// The unit normals of all vertices; 0 if a vertex has none.
 fn normals(meshes: &[TriangleMesh]) -> impl Iterator<Item = DVec3> {
     meshes.iter().flat_map(|mesh| {
         let normal = |i: usize| mesh.normals().map_or(DVec3::ZERO, |normals| unit(normals[i]));
@@ -74,7 +74,7 @@ fn normals(meshes: &[TriangleMesh]) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// The unit normals of all triangles; 0 for none.
+/// The unit normals of all triangles; 0 if a triangle has none.
 fn flat_normals(meshes: &[TriangleMesh]) -> impl Iterator<Item = DVec3> {
     meshes.iter().flat_map(|mesh| {
         mesh.triangles().iter().map(|triangle| {
@@ -84,12 +84,12 @@ fn flat_normals(meshes: &[TriangleMesh]) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// A vector of length 1; 0 for one without direction.
+/// A vector scaled to length 1; 0 for a vector without direction.
 fn unit(v: DVec3) -> DVec3 {
     (v / v.abs().max_element()).try_normalize().unwrap_or(DVec3::ZERO)
 }
 
-/// The corners of all triangles, among the vertices of all meshes, and their meshes.
+/// The corners of all triangles as indices of vertices of all meshes, and the triangles' meshes.
 fn corners(meshes: &[TriangleMesh]) -> impl Iterator<Item = u32> {
     let mut before = 0;
     let numbered = (0..).zip(meshes).map(move |(number, mesh)| {
@@ -102,8 +102,8 @@ fn corners(meshes: &[TriangleMesh]) -> impl Iterator<Item = u32> {
     })
 }
 
-/// The bounds of the boxes of a tree, each box before those inside it, and for each the place behind all of those, then the
-/// triangle of a leaf.
+/// The bounds of the boxes of a tree, each box before those inside it. For each box there is the index after its last
+/// inner box, then the triangle of a leaf.
 fn flattened(boxes: &[BoxNode]) -> (Vec<f64>, Vec<u32>) {
     let (mut order, mut open) = (Vec::with_capacity(boxes.len()), vec![0]);
     while let Some(node) = open.pop() {

@@ -1,12 +1,13 @@
-//! Distances of bricks to the next one that can show something.
+//! Distances of bricks to the nearest brick that can show something.
 
 /// The largest distance that a byte holds.
 const FARTHEST: u8 = 255;
 
-/// The distance of each brick to the nearest visible one, in bricks along the axis that is farthest apart: 0 of a visible
-/// brick, 1 of its 26 neighbours, and so on, up to 255. All bricks less than d from one of distance d are invisible.
+/// The distance of each brick to the nearest visible one, in bricks along the axis with the largest difference. It is 0
+/// for a visible brick, 1 for its 26 neighbours, and so on, up to 255. All bricks less than d from a brick of distance
+/// d are invisible.
 ///
-/// Distances over 26 neighbours are those of steps from neighbour to neighbour, so two sweeps find them.
+/// This distance is the number of steps from neighbour to neighbour over 26 neighbours, so two sweeps find it.
 pub(super) fn distances(visible: &[bool], [nx, ny, nz]: [usize; 3]) -> Vec<u8> {
     let mut far: Vec<u8> = visible.iter().map(|&is| if is { 0 } else { FARTHEST }).collect();
     // Neighbours that come before a brick, x fastest; those after it lie opposite.

@@ -9,7 +9,7 @@ use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::Shot;
 
-/// From here on a depth stands for none.
+/// A depth from here on stands for a missing one.
 const NOWHERE: f64 = 1e37;
 
 /// The sums along a ray, from `begin_sums` on.
@@ -99,7 +99,7 @@ fn expressions(layer: LayerKind) -> Vec<String> {
     }
 }
 
-/// A number of a layer in the units of the picture, of one in those of the shader.
+/// Converts a number of a layer from the shader's units to the picture's.
 pub(crate) fn in_picture_units(layer: LayerKind, number: f64, scales: &Scales) -> f64 {
     match layer {
         LayerKind::Z | LayerKind::Depth if number >= NOWHERE => f64::INFINITY,

@@ -27,7 +27,7 @@ pub(crate) fn add_surface(shader: &mut Shader) {
     shader.stages.begin_ray.push("end_lines_at_surface");
 }
 
-/// The rays of a frame, and the lines on them.
+/// The rays of a frame, and the lines that they meet.
 pub(crate) struct LinesOnRays {
     view: View,
     rays_across: usize,
@@ -35,7 +35,7 @@ pub(crate) struct LinesOnRays {
     /// Whether steps are counted along rays.
     by_ray: bool,
     anchor_steps: f64,
-    /// The lines; none: none are in the frame.
+    /// The lines, if the frame has any.
     pub(crate) lines: Option<Fragments>,
 }
 
@@ -57,7 +57,7 @@ impl LinesOnRays {
         *self = Self { lines: self.lines.take(), ..Self::new(shot, grid) };
     }
 
-    /// The first fragment of each ray and the end of the last, and the fragments as shaders read them.
+    /// The index of each ray's first fragment, with the end of the last ray, and the fragments as shaders read them.
     fn numbers(&self) -> (Vec<u32>, Vec<f64>) {
         let n = self.rays_across as f64;
         let [width, height] = self.view.size.map(|side| side * self.rays_across);

@@ -1,4 +1,4 @@
-//! Rays: their samples, what they show, and how pixels are made of them.
+//! Rays: their samples, what samples show, and the pixels made of them.
 
 mod brick_distances;
 pub(crate) mod layers;
@@ -20,7 +20,8 @@ use drypoint_scene::measured::Measured;
 use drypoint_scene::shot::{BlendSpace, Cap, Clipping, KappaSource, SampleQuery, Shot, StepAlong};
 use drypoint_scene::volume::{BRICK, Bricks};
 
-/// The most sample planes on either side of the middle of the volume: whole numbers and their halves are exact in f32.
+/// The largest number of sample planes on either side of the middle of the volume. Up to it, integers and halves are
+/// exact in f32.
 const MOST_PLANES: f64 = 4_000_000.0;
 
 /// Rays, and the box of the volume.
@@ -38,8 +39,8 @@ pub(crate) fn add_lattice(shader: &mut Shader, shot: &Shot, place: &GridPlacemen
     add_view(&mut shader.block, shot, place)
 }
 
-/// Adds the numbers of the camera. Rays begin at a plane in the middle of the volume, the anchor, so that the numbers of f32
-/// are of the volume's size.
+/// Adds the numbers of the camera. Rays begin at the anchor, a plane in the middle of the volume, so that numbers of
+/// f32 are of the volume's size.
 pub(crate) fn add_view(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) -> Result<(), GpuError> {
     let (Shot { view, lattice, .. }, GridPlacement { grid, anchor, .. }) = (shot, place);
     let planes = lattice.planes(view, grid);
@@ -70,14 +71,14 @@ pub(crate) fn add_view(block: &mut ParamBlock, shot: &Shot, place: &GridPlacemen
     Ok(())
 }
 
-/// Adds the near distance, before which surfaces and funnels begin nothing.
+/// Adds the near distance, before which no surface or funnel begins.
 pub(crate) fn add_near(block: &mut ParamBlock, shot: &Shot, place: &GridPlacement) {
     let Shot { view, lattice, .. } = shot;
     let near = if view.perspective { lattice.near / lattice.step - (place.anchor + 0.5) } else { -MOST_PLANES };
     block.number("near_steps", near.max(-MOST_PLANES));
 }
 
-/// Rays about the picture, on each side of it, from which halos reach into it.
+/// Width in rays of the band about the picture from which halos reach into it.
 pub(crate) fn guard(shot: &Shot) -> usize {
     shot.halos.list.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0)
 }
@@ -90,7 +91,7 @@ pub(crate) fn ends_rays(shot: &Shot) -> bool {
 /// A ray through the volume alone.
 pub(crate) const CAST_ALONE: &[Module] = &[module!("cast_alone")];
 
-/// Adds the loop over samples and what it calls: `cast` is a ray's order of samples.
+/// Adds the loop over samples and its functions. `cast` is the order in which a ray visits samples.
 pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_lines: bool) {
     let object = shot.background();
     shader.add(&[ELEMENTARY, module!("opacity"), module!("accumulator"), module!("sample"), module!("cast")]);
@@ -108,7 +109,7 @@ pub(crate) fn add_cast(shader: &mut Shader, shot: &Shot, cast: &[Module], has_li
     }
 }
 
-/// Adds the measures of gradients that samples are asked for.
+/// Adds the measures of gradients in the query of samples.
 pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Scales) {
     shader.add(&[module!("evaluate_normal")]);
     shader.stages.measured.push("measure_gradient");
@@ -120,7 +121,7 @@ pub(crate) fn add_gradient(shader: &mut Shader, measured: &Measured, scales: &Sc
     }
 }
 
-/// Adds the curvatures from Hessians that samples are asked for.
+/// Adds the curvatures from Hessians in the query of samples.
 pub(crate) fn add_curvature(shader: &mut Shader, query: SampleQuery) {
     shader.add(&[module!("evaluate_curvature")]);
     shader.constant("EXACT_KAPPA", Constant::Bool(query.kappa == KappaSource::Exact));
@@ -135,7 +136,7 @@ pub(crate) fn add_mask(shader: &mut Shader) {
     shader.stages.next_number.push("skip_masked");
 }
 
-/// Adds clip planes alone. The spheres of caps stand after those of `styles`.
+/// Adds clip planes alone. The spheres of caps follow those of `styles`.
 pub(crate) fn add_planes(shader: &mut Shader, planes: &ClipPlanes, caps: &[Cap], styles: usize) {
     let plane = |plane: &ClipPlane| {
         let cap = match plane.cap.and_then(|cap| caps.get(cap).copied()) {
@@ -151,20 +152,20 @@ pub(crate) fn add_planes(shader: &mut Shader, planes: &ClipPlanes, caps: &[Cap],
     shader.bind(7, "the clip planes", Data::Reals(planes.0.iter().flat_map(plane).collect()));
 }
 
-/// Adds clip planes and what they leave of rays, before what shades is added.
+/// Adds clip planes and the ranges of rays that they leave, before shading is added.
 pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) {
     add_planes(shader, &clipping.planes, &clipping.caps, styles);
     shader.add(&[module!("clipped_samples")]);
     shader.stages.samples_left.push("clip_run");
 }
 
-/// Adds what clip planes make of samples on cuts, after what measures and shades is added.
+/// Adds the shading of samples on cuts, after measures and shading are added.
 pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.measured.push("measure_cut");
     shader.stages.cut.push("show_cap");
 }
 
-/// Adds the end of rays at an opaque surface, before what searches it.
+/// Adds the end of rays at an opaque surface, before the search for it.
 pub(crate) fn add_end(shader: &mut Shader) {
     shader.add(&[module!("end")]);
     shader.stages.begin_ray.push("forget_surface");
@@ -205,7 +206,7 @@ pub(crate) fn add_brick_sizes(shader: &mut Shader, bricks: &Bricks) {
     shader.constant("BRICK", Constant::Int(BRICK as i64));
 }
 
-/// Adds pixels and what lies behind them.
+/// Adds pixels and their background.
 pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<'_>) {
     let [width, height] = shot.view.size;
     shader.add(&[module!("pixel_sum")]);

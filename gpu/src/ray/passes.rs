@@ -1,4 +1,4 @@
-//! The passes of rays that are drawn each alone: all pixels, then those at edges once more.
+//! The passes of rays that are drawn independently: all pixels, then those at edges once more.
 
 use crate::block::ParamBlock;
 use crate::buffers::{list_entry, pipeline};
@@ -12,8 +12,8 @@ use std::ops::Range;
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
 
-/// About the most samples of one submission to a card, so that no driver takes it for a fault; and to software, so that
-/// progress is heard.
+/// About the largest number of samples in one submission. For a card it keeps drivers from assuming a fault; for
+/// software it keeps progress reports coming.
 const SAMPLES_AT_ONCE: [f64; 2] = [(1u64 << 28) as f64, (1u64 << 26) as f64];
 
 /// Further rays of a pixel at an edge, across and down ([RAY-7]).
@@ -22,11 +22,11 @@ const REFINED_ACROSS: usize = 3;
 /// Passes over the pixels of a picture.
 pub(crate) struct RayPasses {
     draw: Pass,
-    /// Further rays at edges; none: no pixel is refined.
+    /// Further rays at edges; none if no pixel is refined.
     refinement: Option<Pass>,
     size: [usize; 2],
     rays_across: usize,
-    /// Samples of a row of pixels of one ray, roughly.
+    /// About how many samples a row of pixels has with one ray for each pixel.
     samples_a_row: f64,
     is_beauty_alone: bool,
 }
@@ -65,8 +65,8 @@ impl RayPasses {
         self.samples_a_row = self.size[0] as f64 * shot.lattice.planes(&shot.view, grid).max(1.0);
     }
 
-    /// Draws rows into the picture's buffer, and copies them to the one that is read back. `further` are the further lists with
-    /// their bindings.
+    /// Draws rows into the picture's buffer, and copies them to the buffer that is read back. `further` holds further
+    /// lists with their bindings.
     pub(crate) fn draw(
         &self,
         canvas: &Canvas<'_>,

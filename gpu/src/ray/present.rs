@@ -68,7 +68,7 @@ impl Presentation {
     }
 }
 
-/// The shader for pixels of so many channels, with the beauty from channel `first` on.
+/// The shader for pixels of `channels` channels. The beauty begins at channel `first`.
 pub(crate) fn text(precision: Precision, [width, height]: [usize; 2], channels: usize, first: usize) -> String {
     let number = number::of(precision);
     format!(

@@ -5,16 +5,16 @@ use super::{Data, Shader};
 use crate::Precision;
 use std::collections::BTreeMap;
 
-/// Bindings of attached shaders begin here, behind those that modules have.
+/// The first binding of attached shaders. It lies behind those of modules.
 const FIRST: u32 = 32;
 
 impl Shader {
-    /// Attaches what another shader declares: `roots` and everything that they use. Each of these names gets the suffix,
-    /// unless both shaders declare the same; names in `kept` stay. Names that the other shader does not declare stand for
-    /// this one's.
+    /// Attaches declarations of another shader: `roots` and everything that they use. Each name gets the suffix, unless
+    /// both shaders declare the same; with `kept`, the roots keep theirs. A name that the other shader lacks refers to
+    /// this shader's declaration.
     ///
-    /// Both declare the same if the texts are, and read no variable of their own, and no number of the scene: a list of the
-    /// same data is one list.
+    /// Declarations are the same if their texts are, and if they read neither a variable of their own nor a number of
+    /// the scene. Lists of the same data are shared.
     pub(crate) fn attach(&mut self, other: Shader, precision: Precision, suffix: &str, roots: &[&str], kept: bool) {
         let (own_text, text) = (self.text(precision), other.text(precision));
         let (own, all) = (by_name(&own_text), by_name(&text));
@@ -62,8 +62,8 @@ fn by_name(text: &str) -> BTreeMap<&str, Declaration<'_>> {
     declarations(text).map(|declaration| (declaration.name, declaration)).collect()
 }
 
-/// Finds the declarations that a name leads to. A declaration is the part's own if its text differs, or if it uses one that
-/// is. The list of the scene's numbers counts as the part's own, and is not attached.
+/// Finds the declarations that a name leads to. A declaration is the part's own if its text differs, or if it uses one
+/// that is the part's own. The list of the scene's numbers counts as the part's own, and is not attached.
 fn find_own<'t>(
     name: &str,
     all: &BTreeMap<&'t str, Declaration<'t>>,

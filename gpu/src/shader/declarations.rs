@@ -22,7 +22,7 @@ impl<'t> Declaration<'t> {
         self.identifiers().map(|range| &self.text[range])
     }
 
-    /// The text with other identifiers; none: the identifier as it is.
+    /// The text with renamed identifiers. An identifier for which `rename` returns none is kept.
     pub(super) fn renamed(&self, rename: impl Fn(&str) -> Option<String>) -> String {
         let (mut text, mut end) = (String::new(), 0);
         for range in self.identifiers() {
@@ -41,8 +41,8 @@ impl<'t> Declaration<'t> {
         rest.split_once(')')?.0.parse().ok()
     }
 
-    /// The places of identifiers that may stand for declarations: no members, no attributes. A member of the parameters
-    /// stands for a number of the scene.
+    /// The places of identifiers that may stand for declarations. Members and attributes do not, except that a member
+    /// of the parameters stands for a number of the scene.
     fn identifiers(&self) -> impl Iterator<Item = Range<usize>> {
         let (text, is_struct) = (self.text, self.keyword == "struct");
         words(text).filter(move |word| {

@@ -4,7 +4,7 @@ use super::function::write_function;
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// A number that a ray keeps from group to group of planes: a private variable of the shader.
+/// A number that a ray keeps from one group of planes to the next: a private variable of the shader.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Kept {
     name: Cow<'static, str>,
@@ -30,13 +30,13 @@ pub(crate) struct HaloStages {
     pub(crate) kept: Vec<Kept>,
     /// Numbers that rays of seeds keep.
     pub(crate) seed_kept: Vec<Kept>,
-    /// When any ray goes on.
+    /// When any ray is resumed.
     pub(crate) resume: Vec<&'static str>,
-    /// When a ray of the picture has its numbers again.
+    /// When a ray of the picture has been resumed.
     pub(crate) after_resume: Vec<&'static str>,
-    /// From the run of samples in the box to those that can seed.
+    /// Maps the run of samples in the box to those that can seed.
     pub(crate) left: Vec<&'static str>,
-    /// From a sample to the next plane that can seed.
+    /// Maps a sample to the next plane that can seed.
     pub(crate) next: Vec<&'static str>,
     /// The factors of h that need no gradient.
     pub(crate) height: Vec<&'static str>,
@@ -49,12 +49,12 @@ pub(crate) struct HaloStages {
 }
 
 impl HaloStages {
-    /// The numbers that a ray of the picture has of its own, beside its colour and its planes.
+    /// The number of values that a ray of the picture keeps, beside its colour and its planes.
     pub(crate) fn kept_numbers(&self) -> usize {
         self.kept.len() + self.watched.len()
     }
 
-    /// The place of a halo among those that layers show.
+    /// An expression for the intensity of a halo at a pixel: the mean over its rays.
     pub(crate) fn intensity(halo: usize) -> String {
         format!("halo_sum_{halo} / real(RAYS_ACROSS * RAYS_ACROSS)")
     }

@@ -1,11 +1,11 @@
-//! Blinn–Phong shading ([STF-11]), and the colours that light falls on.
+//! Blinn–Phong shading ([STF-11]), and the kinds of colours that are lit.
 
 use crate::module::module;
 use crate::number::{ELEMENTARY, NUMBER};
 use crate::shader::{Constant, Shader};
 use drypoint_scene::shot::PhongParams;
 
-/// Colours under a light of their own.
+/// Colours with a light of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LitColors {
     /// Colours of samples of the volume.
@@ -50,7 +50,7 @@ pub(crate) fn add_to_meshes(shader: &mut Shader, phong: &PhongParams) {
     shader.constant("MESH_WHOLE_SHININESS", is_whole);
 }
 
-/// Adds Blinn–Phong with numbers of these names. Returns whether the shininess is a small whole number.
+/// Adds Blinn–Phong with numbers of these names. Returns whether the shininess is a small integer.
 fn add_phong(shader: &mut Shader, phong: &PhongParams, light: &'static str, name: impl Fn(&str) -> String) -> Constant {
     shader.add(&[NUMBER, ELEMENTARY, module!("shading")]);
     let (block, s) = (&mut shader.block, phong.shininess);

@@ -19,8 +19,8 @@ pub(crate) fn add_curvature_along_ray(shader: &mut Shader, turn: Turn) {
     shader.stages.measured.push("measure_along_ray");
 }
 
-/// Adds a function of styles: `of_node` is the index function. `between` finds the styles and the opacity of a sample. The
-/// spheres themselves are added apart.
+/// Adds a function of styles. `of_node` is the index function, and `between` finds the styles and the opacity of a
+/// sample. The spheres themselves are added separately.
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,

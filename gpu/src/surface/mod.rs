@@ -1,4 +1,4 @@
-//! Iso-surfaces at which rays end ([HATCH-14]).
+//! Iso-surfaces, where rays end ([HATCH-14]).
 
 use crate::field::Scales;
 use crate::module::module;
@@ -9,8 +9,8 @@ use drypoint_scene::shot::{Kernel, OpaqueSurface, Outside, Shot};
 /// The largest number that kernels make of numbers in [−1, 1], and more.
 const LARGEST: f64 = 8.0;
 
-/// Adds the search for the first root of a value on a ray. `slack` is the rounding of a value. The mask, if there is one,
-/// is bound already.
+/// Adds the search for the first root of a value on a ray. `slack` is the rounding of a value. If there is a mask, it
+/// must be bound before.
 pub(crate) fn add_search(
     shader: &mut Shader,
     kernel: Kernel,
@@ -43,13 +43,13 @@ pub(crate) fn add_search(
     shader.block.number("iso", scales.value(iso).clamp(-LARGEST, LARGEST));
 }
 
-/// Adds the inside of the surface, where planes cut.
+/// Adds the test for the inside of the surface, for cuts by planes.
 pub(crate) fn add_inside(shader: &mut Shader, outside: Outside, has_mask: bool) {
     shader.add(&[module!("clipped_inside"), if has_mask { module!("unmasked_cells") } else { module!("every_cell") }]);
     shader.constant("OUTSIDE_IS_LOW", Constant::Bool(outside == Outside::Low));
 }
 
-/// Adds an iso-surface at which rays end, of which the search is there, and the end of rays.
+/// Adds an iso-surface and the end of rays at it. Its search must have been added.
 pub(crate) fn add(shader: &mut Shader, shot: &Shot, surface: &OpaqueSurface, has_mask: bool) {
     let object = shot.background();
     shader.add(&[module!("../ray/surface")]);
@@ -78,7 +78,7 @@ pub(crate) fn add_curvature_along_ray(shader: &mut Shader) {
     shader.stages.measured.push("measure_along_ray_at_surface");
 }
 
-/// Adds the caps of cuts, after the light. `in_styles` says whether some are styles.
+/// Adds the caps of cuts, after the light. `in_styles` tells whether some caps are styles.
 pub(crate) fn add_caps(shader: &mut Shader, in_styles: bool) {
     shader.add(&[module!("under_cap"), module!("capped")]);
     shader.stages.on_surface.push("cap_surface");

@@ -1,4 +1,4 @@
-//! Transfer functions: from a value to a place between nodes ([STF-3]).
+//! Transfer functions, which map a value to a place between nodes ([STF-3]).
 
 pub(crate) mod over;
 
@@ -11,8 +11,8 @@ use drypoint_scene::transfer::{Function, Rows, gate};
 /// The colours of a place between the nodes of a function over the value.
 pub(crate) const COLORS_OVER_VALUE: Module = module!("colors_over_value");
 
-/// Adds the nodes of a function, and where it is read from a table its entries. Of a function over two quantities these are
-/// the values at which it can be visible.
+/// Adds the nodes of a function, and its entries if it is read from a table. For a function over two quantities, these
+/// are the values at which it can be visible.
 pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scales, precision: Precision) {
     let (at, opacity, rows) = function.nodes();
     let scaled = |at: &[f64]| -> Vec<f64> { at.iter().map(|&at| scales.value(at)).collect() };
@@ -31,8 +31,8 @@ pub(crate) fn add_nodes(shader: &mut Shader, function: &Function, scales: &Scale
     }
 }
 
-/// Adds a piecewise-linear function over numbers: places and values of nodes, and where it is a table the places that its
-/// entries stand for.
+/// Adds a piecewise-linear function over numbers: places and values of nodes. For a table it adds the places of its
+/// entries.
 pub(crate) fn add_piecewise(shader: &mut Shader, [at, opacity]: [&[f64]; 2], index: Option<&[f64]>) {
     let end = at.len() - 1;
     let node = |k: usize| {

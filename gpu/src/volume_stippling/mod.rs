@@ -1,5 +1,5 @@
-//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic Volume Rendering Using Stippling Techniques*, VIS 2002: points
-//! that an iso-surface hides ([STIP-15]).
+//! Lu, Morris, Ebert, Rheingans, Hansen, *Non-Photorealistic Volume Rendering Using Stippling Techniques*, VIS 2002:
+//! the test for points that an iso-surface hides ([STIP-15]).
 
 use crate::block::ParamBlock;
 use crate::buffers::{buffer, entry, list_entry, pipeline, read};
@@ -17,7 +17,7 @@ use drypoint_scene::shot::{NormalDirection, Reconstruction};
 use drypoint_scene::space::Grid;
 use drypoint_scene::view::View;
 
-/// Points of one submission: each costs three searches through the volume.
+/// Number of points in one submission. Each costs three searches through the volume.
 const AT_ONCE: usize = 1 << 16;
 
 /// Points of a workgroup.
@@ -42,7 +42,7 @@ pub struct Hiding<'a> {
     pub near: f64,
 }
 
-/// A test of which points an iso-surface hides, for any number of cameras with one projection.
+/// A test for points that an iso-surface hides, for any number of cameras with one projection.
 pub struct HiddenPoints {
     gpu: Gpu,
     precision: Precision,
@@ -58,12 +58,12 @@ impl HiddenPoints {
     /// Prepares the test for a volume that is already uploaded.
     ///
     /// # Errors
-    /// Data that do not fit, a driver that refuses.
+    /// Data do not fit, or the driver refuses.
     pub fn new(gpu: &Gpu, volume: &UploadedVolume, hiding: &Hiding<'_>) -> Result<Self, GpuError> {
         Self::edited(gpu, volume, hiding, &|text| text)
     }
 
-    /// Prepares the test with an edited shader, for tests of whether a comparison notices a fault.
+    /// Prepares the test with an edited shader. Tests use it to check that a comparison notices a fault.
     ///
     /// # Errors
     /// See [`HiddenPoints::new`].
@@ -155,7 +155,7 @@ impl HiddenPoints {
     }
 }
 
-/// Puts the shader of the test together. Lengths are in voxels of the volume.
+/// Composes the shader of the test. Lengths are in voxels of the volume.
 pub(crate) fn shader(hiding: &Hiding<'_>, precision: Precision) -> Shader {
     let &Hiding { volume, measured, reconstruction, iso, clip, perspective, near } = hiding;
     let (grid, mask) = (volume.grid(), volume.mask());

@@ -58,7 +58,7 @@ impl Funnel {
     }
 }
 
-/// The funnels of a shot, of those cutaways that have one.
+/// The funnels of a shot, one for each smooth cutaway.
 fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
     let cutaways = shot.combination.iter().flat_map(super::cutaways);
     let smooth = cutaways.filter(|cutaway| cutaway.funnel > 0.0);
@@ -66,8 +66,8 @@ fn funnels<'s>(shot: &'s Shot) -> impl Iterator<Item = Funnel> + 's {
     smooth.map(move |cutaway| Funnel { sigma: cutaway.funnel, size })
 }
 
-/// Pixels about the picture over which maps of funnels reach: the guard band of halos, whose seeds are cut as in a larger
-/// picture.
+/// Width in pixels of the band about the picture that maps of funnels cover: the guard band of halos, whose seeds are
+/// cut as in a larger picture.
 fn margin(shot: &Shot) -> usize {
     ray::guard(shot).div_ceil(shot.rays_across.max(1))
 }
@@ -77,7 +77,8 @@ fn map_size(shot: &Shot) -> [usize; 2] {
     shot.view.size.map(|n| n + 2 * margin(shot))
 }
 
-/// The share of a step by which a sample has to lie before the end of a funnel, so that rounding does not decide.
+/// The share of a step by which a sample must lie before the end of a funnel to be cut, so that rounding does not
+/// decide.
 fn slack(precision: Precision) -> f64 {
     match precision {
         Precision::Single => 1.0 / (1u64 << 10) as f64,
@@ -103,7 +104,7 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
     shader.bind(26, "the bands of funnels", Data::Words(bands));
 }
 
-/// The shader that makes maps of far depths, of so many pixels across and down.
+/// The shader that makes maps of far depths, of this size in pixels.
 pub(crate) fn text_of_maps(precision: Precision, [width, height]: [usize; 2]) -> String {
     let sizes = format!("const WIDTH = {width};\nconst HEIGHT = {height};");
     format!("{}\n{sizes}\n{}", number::of(precision).text, module!("funnel_maps").text)
@@ -124,7 +125,7 @@ pub(crate) struct FunnelPasses {
 }
 
 impl FunnelPasses {
-    /// The passes of a shot with its whole shader; none without funnels.
+    /// The passes of a shot with its whole shader. Returns none without funnels.
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
@@ -190,7 +191,7 @@ impl FunnelPasses {
         }))
     }
 
-    /// Whether passes, or none, are those of another shot.
+    /// Whether passes, or their absence, serve another shot.
     pub(crate) fn fit(passes: Option<&Self>, shot: &Shot) -> bool {
         funnels(shot).collect::<Vec<_>>() == passes.map_or(&[][..], |passes| &passes.funnels)
     }

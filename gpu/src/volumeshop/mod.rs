@@ -19,7 +19,7 @@ const LIGHTING: u32 = 24;
 /// A ray among objects.
 pub(crate) const CAST_AMONG: &[Module] = &[module!("spans"), module!("cast_among")];
 
-/// Adds the lighting function of samples. An iso-surface has a look of its own, and none is lit by one.
+/// Adds the lighting function of samples. An iso-surface has its own light, which is never a lighting function.
 pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
     shader.add(&[BILINEAR, module!("lighting")]);
     shader.block.vector("light", params.light);
@@ -30,7 +30,7 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
     shader.stages.lit.push("shade_by_table");
 }
 
-/// The cells of the lighting tables of objects, which for light from the world depend on the camera.
+/// The cells of the lighting tables of objects. For light from the world they depend on the camera.
 pub(crate) fn lighting_cells<'o>(objects: impl Iterator<Item = &'o Object>) -> Vec<Vec<f64>> {
     let tables = objects.filter_map(|object| match &object.material {
         Material::Regular(lit) => match &lit.lighting {

@@ -1,4 +1,4 @@
-//! Objects together ([VS-2] … [VS-4], [VS-7]): functions of the picture's shader that call those of its parts.
+//! Combination of objects ([VS-2] … [VS-4], [VS-7]): functions of the picture's shader that call those of its parts.
 
 use super::funnel;
 use crate::Precision;
@@ -15,7 +15,7 @@ use std::fmt::Write;
 
 /// A selection or a ghost that can show something.
 pub(crate) struct DrawnPart {
-    /// Its place among the shot's parts.
+    /// Index of the part in the shot.
     pub(crate) part: usize,
     /// Whether it is taken from the picture's volume, and drawn there.
     pub(crate) takes: bool,
@@ -28,7 +28,7 @@ pub(crate) struct DrawnPart {
 }
 
 impl DrawnPart {
-    /// Its place among objects in the shader: the background comes first.
+    /// Index of the part among the shader's objects. The background comes first.
     fn object(&self) -> usize {
         self.part + 1
     }
@@ -40,12 +40,12 @@ impl DrawnPart {
     }
 }
 
-/// The end of a part's names.
+/// The suffix of a part's names.
 pub(crate) fn suffix(part: usize) -> String {
     format!("_{part}")
 }
 
-/// The name of the first sample that a cutaway leaves.
+/// The name of the first sample behind a cutaway.
 pub(crate) fn cut_end(cutaway: usize) -> String {
     format!("cut_ends[{cutaway}]")
 }
@@ -91,7 +91,7 @@ pub(crate) fn add(
     shader.stages.objects = Some(text);
 }
 
-/// The enhancement of a material, which ghosting spares.
+/// The enhancement of a material, which protects samples from ghosting.
 fn enhancement(material: &Material) -> Module {
     match material {
         Material::Style(style) if style.transparency == Transparency::Illustrative => module!("ghosting_of_style"),
@@ -151,8 +151,8 @@ fn write_switch(
     write_function(text, head, std::iter::once(format!("switch {on} {{")).chain(cases).chain(end), None);
 }
 
-/// Writes the calls that find the sets of parts, and that say which set is the largest: of equal ones a selection, a ghost,
-/// the background, each the first of its kind.
+/// Writes the calls that find the sets of parts and select the largest set. If several are equal, selections come
+/// first, then ghosts, then the background, each kind in its order.
 fn sets_of_parts(text: &mut String, parts: &[DrawnPart]) {
     let takes = parts.iter().filter(|drawn| drawn.takes);
     let takes = takes.map(|drawn| format!("memberships[{}] = part_takes_{}(k);", drawn.object(), drawn.part));
@@ -174,7 +174,7 @@ fn sets_of_parts(text: &mut String, parts: &[DrawnPart]) {
     write_switch(text, "seen_object(object: i32, shaded: Shaded) -> Together", "object", seen, background);
 }
 
-/// Writes the seeds of so many halos at a sample, of all sets together ([VS-2]).
+/// Writes the combined seeds of `halos` halos at a sample ([VS-2]).
 fn seeds_together(text: &mut String, halos: usize, parts: &[DrawnPart]) {
     let _ = write!(
         text,
@@ -190,7 +190,7 @@ fn seeds_together(text: &mut String, halos: usize, parts: &[DrawnPart]) {
     write_function(text, "sow_objects(k: i32)", calls, None);
 }
 
-/// Writes the calls that find intersections, and what they read of objects; then those that find fractions for layers.
+/// Writes the calls that find intersections and read objects for them, then those that find fractions for layers.
 fn meetings(
     text: &mut String,
     shader: &mut Shader,

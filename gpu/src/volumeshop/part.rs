@@ -6,7 +6,7 @@ use crate::shader::{Constant, Shader};
 use drypoint_scene::math::scale_by_power_of_two;
 use drypoint_scene::shot::{Membership, SelectionParams};
 
-/// The names that the picture calls.
+/// The names that the picture's shader calls.
 pub(crate) const NAMES: &[&str] = &[
     "aim_part",
     "part_range",
@@ -24,8 +24,9 @@ pub(crate) const NAMES: &[&str] = &[
     "sow_beside",
 ];
 
-/// Adds a part to the shader of its look. `is_of_volume` says whether its samples are those of the picture's volume, `takes`
-/// whether the selection is taken from it, `has_last_member` whether a cutaway asks for it, and `seeds` whether halos do.
+/// Adds a part to the shader of its look. `is_of_volume` tells whether its samples are those of the picture's volume,
+/// and `takes` whether the selection is taken from that volume. `has_last_member` tells whether a cutaway needs it, and
+/// `seeds` whether halos do.
 pub(crate) fn add(
     shader: &mut Shader,
     selection: &SelectionParams,

@@ -9,10 +9,10 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::shot::{Membership, SelectionParams};
 use drypoint_scene::volume::Selection;
 
-/// The names that a part calls.
+/// The names that the shader of a part calls.
 pub(crate) const NAMES: &[&str] = &["aim_selection", "selection_range", "is_in_selection", "membership_at", "far_side"];
 
-/// Adds a selection, to a shader with the rays of its memberships' grid; `scales` are those of the data's values.
+/// Adds a selection to a shader with the rays of its memberships' grid. `scales` are those of the data's values.
 pub(crate) fn add(shader: &mut Shader, selection: &SelectionParams, memberships: Option<&Selection>, scales: &Scales) {
     shader.add(&[module!("selection_ray")]);
     // An empty selection has no box, and no cutaway asks for it.

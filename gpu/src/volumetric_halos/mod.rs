@@ -1,6 +1,6 @@
 //! Bruckner and Gröller, *Enhancing Depth-Perception with Flexible Volumetric Halos*, IEEE TVCG 13(6), 2007.
 //!
-//! Rays wait for each other from group of planes to group of planes. [`planes`] runs the passes of each group.
+//! Rays wait for each other after each group of planes. [`planes`] runs the passes of each group.
 
 pub(crate) mod planes;
 
@@ -32,7 +32,7 @@ struct Lists {
 }
 
 impl Lists {
-    /// Appends numbers and returns the place of the first one.
+    /// Appends numbers and returns the index of the first one.
     fn place(&mut self, numbers: Vec<f64>) -> f64 {
         let first = self.numbers.len() as f64;
         self.numbers.extend(numbers);
@@ -40,8 +40,8 @@ impl Lists {
     }
 }
 
-/// Adds the halos of a shot, after everything that samples are asked for; `own` is the query of samples without halos. A part
-/// of a picture has seeds alone.
+/// Adds the halos of a shot, after all measures of samples. `own` is the query of samples without halos. A part of a
+/// picture has only seeds.
 pub(crate) fn add(
     shader: &mut Shader,
     (shot, is_part): (&Shot, bool),
@@ -232,7 +232,8 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, place: &GridPl
     parameters
 }
 
-/// Whether a sample that is composited and seeds keeps its gradient: among objects several sets are measured in turn.
+/// Whether a sample that is composited and seeds keeps its gradient. Among objects it does not, since several sets are
+/// measured in turn.
 fn measures_once(shot: &Shot, is_part: bool) -> bool {
     shot.combination.is_none() && !is_part
 }
@@ -256,7 +257,8 @@ fn add_bricks(shader: &mut Shader, list: &[HaloParams], object: &Object, bricks:
     shader.bind(33, "the bricks of seeds", Data::Words(words));
 }
 
-/// Adds the functions that rays and seeds call at each step: of those that the shader has, what halos ask for.
+/// Adds the functions that rays and seeds call at each step. From the shader's own functions, those that halos need are
+/// taken.
 fn add_stages(
     shader: &mut Shader,
     (shot, is_part): (&Shot, bool),

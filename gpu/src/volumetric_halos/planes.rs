@@ -1,4 +1,4 @@
-//! The passes of a picture with halos, group of planes by group of planes ([HALO-1], [HALO-8], [HALO-9]).
+//! The passes of a picture with halos, one group of planes after the other ([HALO-1], [HALO-8], [HALO-9]).
 
 use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
@@ -15,7 +15,7 @@ use drypoint_scene::space::Grid;
 /// Pixels along the side of a workgroup.
 const GROUP: u32 = 8;
 
-/// About the most pixels that the passes of one submission write, so that no driver takes it for a fault.
+/// About the largest number of pixels that the passes of one submission write. It keeps drivers from assuming a fault.
 const PIXELS_AT_ONCE: u64 = 1 << 26;
 
 /// Bytes of a group of planes as a shader reads it.
@@ -24,7 +24,7 @@ const GROUP_BYTES: u64 = 24;
 /// The name of the list of groups in errors.
 const GROUP_LIST: &str = "the groups of planes";
 
-/// The most tiles in each direction in which seeds of a tile are spread.
+/// The largest number of tiles in each direction over which seeds of a tile spread.
 const TILE_REACH: usize = 1;
 
 /// Rays across and down.
@@ -59,21 +59,21 @@ pub(crate) fn most_passes(list: &[HaloParams]) -> u32 {
     list.iter().map(|halo| halo.spread.passes).max().unwrap_or(0)
 }
 
-/// Whole rays and the fraction of the distance of taps.
+/// The distance of taps, as whole rays and a fraction.
 pub(crate) fn taps(halo: &HaloParams, exponent: u32, size: ImageSize) -> [f64; 2] {
     let side = size.image[0].max(size.image[1]);
     let (j, f) = split_distance(tap_distance(halo.spread.stretch, exponent), side);
     [j as f64, f]
 }
 
-/// Planes whose rays go on together: M of some halo, or fewer where groups of several halos end apart.
+/// Planes that rays visit together: M of some halo, or fewer if groups of several halos end at different planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct PlaneGroup {
     /// The first plane and the last one, counted from the eye.
     planes: [i64; 2],
     /// Whether the groups of all halos end here.
     all_end: bool,
-    /// Whether a plane that follows asks for the intensities.
+    /// Whether a later plane needs the intensities.
     is_asked: bool,
 }
 
@@ -100,8 +100,8 @@ fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last
     groups
 }
 
-/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or something else, of which the
-/// corners of boxes are given.
+/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or something inside the boxes
+/// with the corners `others`.
 fn reached(shot: &Shot, grid: &Grid, others: &[DVec3]) -> [i64; 2] {
     let Shot { view, lattice, .. } = shot;
     let corners = grid.world_corners().into_iter().chain(others.iter().copied());
@@ -121,7 +121,7 @@ pub(crate) fn corners(mesh: &TriangleMesh) -> [DVec3; 8] {
 /// Halos of a picture on a graphics card: images and states of rays, and the passes over them.
 pub(crate) struct HaloPlanes {
     size: ImageSize,
-    /// Four halos to a vector of the images.
+    /// Number of vectors of the images. Each vector holds four halos.
     fours: u32,
     pixels: [u32; 2],
     halos: Vec<HaloParams>,
@@ -142,14 +142,14 @@ pub(crate) struct HaloPlanes {
     finish: wgpu::ComputePipeline,
     params_layout: wgpu::BindGroupLayout,
     state_layout: wgpu::BindGroupLayout,
-    /// Numbers of rays, of seeds' rays, then S, H and O.
+    /// Numbers of rays, numbers of seeds' rays, then S, H and O.
     state: [wgpu::Buffer; 5],
     /// The tiles that passes visit.
     tile_list: wgpu::Buffer,
     images: Images,
 }
 
-/// H₀ and two images in turn, as passes read and write them.
+/// H₀ and two alternating images, as passes read and write them.
 struct Images {
     /// Filtered seeds: written to the first image.
     median: wgpu::BindGroup,
@@ -346,7 +346,7 @@ impl HaloPlanes {
         Ok(())
     }
 
-    /// From the seeds of groups that end to intensities.
+    /// Converts the seeds of groups that end to intensities.
     fn generate(&self, run: &mut wgpu::ComputePass<'_>, state: &wgpu::BindGroup, record: impl Fn(u32) -> u32) {
         let [across, down] = self.size.tiles.map(|n| n as u32);
         run.set_pipeline(&self.tiles);
@@ -371,7 +371,8 @@ impl HaloPlanes {
         }
     }
 
-    /// The groups of planes as shaders read them, one for each exponent of taps, and the first one of each group.
+    /// The groups of planes as shaders read them, one record for each exponent of taps, and the offset of each group's
+    /// first record.
     fn records(&self, stride: u64) -> (Vec<u8>, Vec<u64>) {
         let mut firsts = Vec::new();
         let mut records = Vec::new();

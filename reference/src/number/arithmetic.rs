@@ -89,19 +89,20 @@ pub trait Arithmetic:
         math::pow_whole(self, self.one(), n)
     }
 
-    /// Whether the number exceeds a bound of rounding, below which it carries nothing.
+    /// Whether the number exceeds a bound of rounding. A number up to the bound is rounding error.
     #[inline(always)]
     fn exceeds(self, rounding: Self::Number) -> Self::Mask {
         self.constant(rounding).below(self)
     }
 
-    /// The number itself, marked as what a decision hangs on: at a comparison with it the picture may jump.
+    /// The number itself, marked with the decision that comparisons with it make. The picture may jump at such a
+    /// comparison.
     #[inline(always)]
     fn deciding(self, _: Decision) -> Self {
         self
     }
 
-    /// Lays an opacity α behind this opacity A: w = (1 − A)·α, and A + w.
+    /// Composites an opacity α behind this opacity A: returns w = (1 − A)·α, and A + w.
     #[inline(always)]
     fn laid_before(self, alpha: Self) -> (Self, Self) {
         let w = (self.one() - self) * alpha;
@@ -120,14 +121,14 @@ pub trait Elementary: Arithmetic {
     /// The angle of (x, self), self ≥ 0, from the x axis.
     fn angle(self, x: Self) -> Self;
 
-    /// x^y of opacities x in (0, 1], for y about 1, in the lanes `asked`; whatever in the others.
+    /// x^y of opacities x in (0, 1], for y about 1, in the lanes `asked`. The other lanes hold arbitrary numbers.
     fn power(self, y: Self, asked: Self::Mask) -> Self;
 
-    /// x^y; whole y up to 64 by repeated squaring.
+    /// x^y. Integers y up to 64 use repeated squaring.
     fn pow(self, y: Self::Number) -> Self;
 }
 
-/// Numbers in f64, of which the series of [`drypoint_scene::math`] are.
+/// Numbers in f64, for which [`drypoint_scene::math`] has series.
 pub(crate) trait Double: Arithmetic<Number = f64> {
     /// The width of the numbers.
     type Width: Width<Number = Self>;
@@ -327,7 +328,7 @@ impl<S: Simd> Elementary for f64x8<S> {
         lanes::power(self, y, asked.to_bitmask())
     }
 
-    /// Computed lane by lane: shininess is rarely a fraction.
+    /// Computed lane by lane, because the shininess is rarely a fraction.
     #[inline(always)]
     fn pow(self, y: f64) -> Self {
         f64x8::from_fn(self.simd, |lane| math::pow(self[lane], y))

@@ -1,10 +1,10 @@
-//! Numbers that know how far an f32 evaluation may lie from them: running error analysis (Higham, *Accuracy and
+//! Numbers that carry a bound of their distance to an f32 evaluation: running error analysis (Higham, *Accuracy and
 //! Stability of Numerical Algorithms*, 3.3).
 //!
-//! A [`Bounded`] is a number of the reference, in f64, and a bound of the distance to the number that an f32 renderer has
-//! in its place if it follows the same formulas in the same order. Fusing a product and a sum is allowed: it leaves out a
-//! rounding. Each operation takes over the errors of its operands and adds its own grant, in units in the last place
-//! (ULP), 2⁻²³ of the result:
+//! A [`Bounded`] is a number of the reference, in f64, with a bound of its distance to the corresponding number of an
+//! f32 renderer. That renderer follows the same formulas in the same order. Fusing a product and a sum is allowed,
+//! since it leaves out a rounding. Each operation propagates the errors of its operands and adds its own grant, in
+//! units in the last place (ULP), 2⁻²³ of the result:
 //!
 //! | operation | grant | source |
 //! |---|---|---|
@@ -15,11 +15,12 @@
 //! | x^y | 16 ULP and 5|y ln x| ULP | e^(y ln x), of which the product carries the error of the logarithm |
 //! | a result in f32's subnormal range | 2⁻¹²⁶ | WGSL: may be flushed to 0 |
 //!
-//! Propagation is not linearized: a product takes |a|e_b + |b|e_a + e_a·e_b, a quotient divides by |b| − e_b, monotone
-//! functions are evaluated at the ends. Where plain rules would forget that errors cancel, the operation as a whole has its
-//! derivative: [`lerp`](Arithmetic::lerp), *over* ([`laid_before`](Arithmetic::laid_before)), hypot.
+//! Propagation is not linearized. A product takes |a|e_b + |b|e_a + e_a·e_b, a quotient divides by |b| − e_b, and
+//! monotone functions are evaluated at the ends. Plain rules ignore that errors can cancel. So
+//! [`lerp`](Arithmetic::lerp), *over* ([`laid_before`](Arithmetic::laid_before)) and hypot use the derivative of the
+//! operation as a whole.
 //!
-//! Comparisons that the errors leave open are followed both ways: see [`ways`](super::ways).
+//! Comparisons that the errors leave open are evaluated both ways. See [`ways`](super::ways).
 
 mod operators;
 mod row;
@@ -48,17 +49,17 @@ const TINY: f64 = f32::MIN_POSITIVE as f64;
 pub struct Bounded {
     value: f64,
     error: f64,
-    /// The decision that hangs on it.
+    /// The decision that comparisons with the number make.
     decision: Decision,
 }
 
 impl Bounded {
-    /// A number that an f32 renderer has exactly.
+    /// A number that f32 holds exactly.
     pub const fn exact(value: f64) -> Self {
         Self { value, error: 0.0, decision: Decision::Step }
     }
 
-    /// A number with its bound. An error that is no number is unbounded.
+    /// A number with its bound. A NaN error counts as unbounded.
     pub fn new(value: f64, error: f64) -> Self {
         Self { value, error: if error.is_nan() { f64::INFINITY } else { error }, decision: Decision::Step }
     }
@@ -73,7 +74,7 @@ impl Bounded {
         self.error
     }
 
-    /// The decision that hangs on the number.
+    /// The decision that comparisons with the number make.
     pub(super) fn decision(self) -> Decision {
         self.decision
     }
@@ -100,17 +101,17 @@ impl Bounded {
         Self { error: 0.0, ..self }
     }
 
-    /// The number with a larger error: `more`, beside that of its own roundings.
+    /// The number with an additional error `more`.
     fn with_more(self, more: f64) -> Self {
         Self::new(self.value, self.error + more * (1.0 + 4.0 * ULP))
     }
 
-    /// The order to another number by their values.
+    /// Compares two numbers by their values.
     pub(super) fn by_value(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
     }
 
-    /// Whether an f32 renderer may order the two otherwise.
+    /// Whether an f32 renderer may order the two numbers differently.
     pub(super) fn is_open(&self, other: &Self) -> bool {
         let (away, errors) = ((self.value - other.value).abs(), self.error + other.error);
         // Infinite numbers without errors have an order.
@@ -118,7 +119,7 @@ impl Bounded {
     }
 }
 
-/// A factor times an error: 0 where either is, also beside an infinite one.
+/// A factor times an error. The product is 0 if either is 0, even if the other is infinite.
 fn of(factor: f64, error: f64) -> f64 {
     if factor == 0.0 || error == 0.0 { 0.0 } else { factor * error }
 }
@@ -168,8 +169,8 @@ impl Arithmetic for Bounded {
         Self { decision, ..self }
     }
 
-    /// The bound of rounding differs between the number types: `rounding` has that of f64 as its value, and its error is the
-    /// distance to that of f32.
+    /// The bound of rounding differs between the number types. The value of `rounding` is the bound of f64, and its
+    /// error is the distance to that of f32.
     fn exceeds(self, rounding: Self) -> bool {
         let middle = Self::new(rounding.value + 0.5 * rounding.error, 0.5 * rounding.error);
         match self.is_open(&middle) {
@@ -188,7 +189,8 @@ impl Arithmetic for Bounded {
         hull(value, [0, 1].map(|end| self.ends()[end].max(other.ends()[end])))
     }
 
-    /// |1 − w|e_a + |w|e_b + |b − a|e_w: a share of each error, whose sum the plain rules would exceed by 2|w|e_a.
+    /// |1 − w|e_a + |w|e_b + |b − a|e_w: each error counts with its share. The plain rules would exceed this sum by
+    /// 2|w|e_a.
     fn lerp(a: Self, b: Self, w: Self) -> Self {
         let [a0, b0, w0] = [a, b, w].map(Self::bare);
         let of_ends = of((1.0 - w.value).abs(), a.error) + of(w.value.abs(), b.error);
@@ -196,7 +198,7 @@ impl Arithmetic for Bounded {
         (a0 + w0 * (b0 - a0)).with_more(of_ends + of_way)
     }
 
-    /// |1 − α|e_A + |1 − A|e_α: A contracts what came before, which plain rules would let grow as 1 + α.
+    /// |1 − α|e_A + |1 − A|e_α: A contracts the earlier error, which plain rules would let grow as 1 + α.
     fn laid_before(self, alpha: Self) -> (Self, Self) {
         let (a, alpha0) = (self.bare(), alpha.bare());
         let through = Self::exact(1.0) - a;
@@ -209,7 +211,7 @@ impl Arithmetic for Bounded {
     }
 }
 
-/// A value in an interval, with the distance to the farther end.
+/// A value in an interval, with its distance to the farther end as error.
 fn hull(value: f64, [lo, hi]: [f64; 2]) -> Bounded {
     Bounded::new(value, if lo == hi { 0.0 } else { (value - lo).max(hi - value) })
 }
@@ -229,13 +231,13 @@ impl Elementary for Bounded {
     }
 }
 
-/// x^y, of which the product y ln x is rounded before the exponential.
+/// x^y, where the product y ln x is rounded before the exponential.
 fn raised(power: Bounded, x: Bounded, y: Bounded) -> Bounded {
     let product = if x.value > 0.0 { (y.value * x.value.ln()).abs() } else { 0.0 };
     power.with_more(power.value.abs() * product * 5.0 * ULP)
 }
 
-/// A function that is monotone in each argument, of which the ends of intervals are given.
+/// A function that is monotone in each argument, from the ends of the arguments' intervals.
 fn corners<const N: usize>(value: f64, ends: [[f64; 2]; N], f: impl Fn([f64; N]) -> f64) -> Bounded {
     let mut farthest: f64 = 0.0;
     for corner in 0..1usize << N {
@@ -281,7 +283,7 @@ impl Real for Bounded {
         v.map(Self::from_voxel)
     }
 
-    /// A number that is not known to half of 1 can have any fraction.
+    /// A number that is not known to ±½ can have any fraction.
     fn split(self) -> (usize, Self) {
         if self.error >= 0.5 {
             let i = self.value as u32;
@@ -291,7 +293,7 @@ impl Real for Bounded {
         (i, self - Self::from_index(i))
     }
 
-    /// ⌊x⌋, or a neighbour that is open.
+    /// ⌊x⌋, or an open neighbour.
     fn to_index(self) -> usize {
         let i = self.value as u32;
         let whole = |i: u32| Self::exact(f64::from(i));
@@ -302,7 +304,7 @@ impl Real for Bounded {
         i as usize - usize::from(before)
     }
 
-    /// None: a part that is not known has no neighbours that are tried instead.
+    /// Returns none. An uncertain index would exclude neighbours that a search has to try.
     fn proposed_index(self) -> Option<usize> {
         None
     }
@@ -323,7 +325,7 @@ impl Real for Bounded {
         self.angle(x)
     }
 
-    /// The error of positions is that of the ray, which its origin carries: one model for all its samples.
+    /// The error of the position, which the ray's origin carries. All samples of a ray share one bound.
     fn on_ray(o: Self, a: Self, t: Self) -> Self {
         Self::new(o.value + a.value * t.value, o.error)
     }
@@ -332,7 +334,7 @@ impl Real for Bounded {
         corners(f(numbers.map(Self::value)), numbers.map(Self::ends), f)
     }
 
-    /// The assignment of the position, or one at a corner of the box about it that is open.
+    /// The assignment of the position, or an open one at a corner of the box about it.
     fn assigned<T: Copy + PartialEq>(position: Vec3<Self>, assign: impl Fn(Vec3<f64>) -> T) -> T {
         let at = |ends: [f64; 3]| assign(Vec3::new(ends[0], ends[1], ends[2]));
         let numbers = [position.x, position.y, position.z];
@@ -349,13 +351,13 @@ impl Real for Bounded {
 
     fn known_within(self, range: [f32; 2]) -> Self {
         let [lo, hi] = range.map(f64::from);
-        // Interpolations between numbers of the range are rounded.
+        // Interpolations between numbers in the range are rounded.
         let rounded = 8.0 * ULP * lo.abs().max(hi.abs());
         let farthest = (hi - self.value).max(self.value - lo) + rounded;
         Self { error: self.error.min(farthest), ..self }
     }
 
-    /// The distance of (x, y) from the origin moves at most as far as (x, y) does.
+    /// The distance of (x, y) from the origin changes by at most the displacement of (x, y).
     fn hypot(self, other: Self) -> Self {
         let value = Real::hypot(self.value, other.value);
         let scaled = 2.0 * (DIVIDED + 2.0 * ROUNDED) + ROOT + ROUNDED;

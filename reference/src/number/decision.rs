@@ -1,7 +1,7 @@
-//! The decisions of a picture: comparisons at which it jumps.
+//! The decisions of a picture: comparisons at which the picture jumps.
 
-/// A comparison on which a picture hangs. An f32 renderer may decide it otherwise where its errors leave it open, and no
-/// bound holds there pixel by pixel ([GPU-2]).
+/// A comparison on which a picture depends. If its errors leave the comparison open, an f32 renderer may decide it
+/// differently, and no bound holds there pixel by pixel ([GPU-2]).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Decision {
     /// A step of the function, or a cell, a node or a texel across which a formula jumps.
@@ -27,7 +27,7 @@ pub enum Decision {
     End,
     /// The depth of the iso-surface, where the ray touches it or passes it by.
     Surface,
-    /// More comparisons were open at one sample than are followed.
+    /// More comparisons were open at one sample than can be followed.
     Many,
 }
 
@@ -48,7 +48,7 @@ impl Decision {
         Self::Many,
     ];
 
-    /// The sentence that says what is decided.
+    /// A sentence that describes the decision.
     pub fn sentence(self) -> &'static str {
         match self {
             Self::Step => "a step of the function, or a cell, a node or a texel across which a formula jumps",

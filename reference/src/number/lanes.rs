@@ -7,27 +7,27 @@ use fearless_simd::{Simd, f64x4, f64x8, mask64x8, u64x8};
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
 
-/// The processor's vector instructions: AVX2 where an x86 has it, NEON on ARM, none elsewhere. AVX-512 gained nothing
+/// The processor's vector instructions: AVX2 if an x86 has it, NEON on ARM, none elsewhere. AVX-512 gained nothing
 /// beyond AVX2, for twice the code.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 pub(crate) fn wide() -> Option<impl Simd> {
     fearless_simd::Level::new().as_avx2()
 }
 
-/// Registers of the processor that hold lanes: NEON, which every such processor has.
+/// The processor's vector instructions: NEON, which every such processor has.
 #[cfg(target_arch = "aarch64")]
 pub(crate) fn wide() -> Option<impl Simd> {
     fearless_simd::Level::new().as_neon()
 }
 
-/// Registers of the processor that hold lanes: none here.
+/// The processor's vector instructions: none here.
 #[cfg(not(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64")))]
 pub(crate) fn wide() -> Option<impl Simd> {
     None::<fearless_simd::Fallback>
 }
 
-/// Runs a closure compiled for those instructions, where the processor has them. The operations are the same, so the
-/// bits are. Only code that is inlined into the closure gains from it.
+/// Runs a closure compiled for the instructions of [`wide`], if the processor has them. The operations are the same, so
+/// the bits are too. Only code that is inlined into the closure benefits.
 #[inline(always)]
 pub(crate) fn widely<T>(compute: impl FnOnce() -> T) -> T {
     match wide() {
@@ -99,8 +99,8 @@ impl<S: Simd> Width for Eight<S> {
     }
 }
 
-/// [`math::power`] of the lanes `asked`; whatever in the others. Tiny numbers, and one or two by themselves, are taken lane
-/// by lane.
+/// [`math::power`] of the lanes `asked`; the other lanes hold arbitrary numbers. Tiny numbers, and one or two lanes,
+/// are computed lane by lane.
 #[inline(always)]
 pub(super) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
     let tiny = asked & x.simd_lt(math::power::LEAST).to_bitmask();
@@ -119,7 +119,7 @@ pub(super) fn power<S: Simd>(x: f64x8<S>, y: f64x8<S>, asked: u64) -> f64x8<S> {
     result
 }
 
-/// Transposes rows of four numbers, one a lane, to columns.
+/// Transposes rows of four numbers, one for each lane, to columns.
 #[inline(always)]
 pub(crate) fn columns<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
     let low = turned([rows[0], rows[1], rows[2], rows[3]]);
@@ -127,7 +127,7 @@ pub(crate) fn columns<S: Simd>(rows: [f64x4<S>; LANES]) -> [f64x8<S>; 4] {
     [low[0].combine(high[0]), low[1].combine(high[1]), low[2].combine(high[2]), low[3].combine(high[3])]
 }
 
-/// Transposes four columns to rows, one a lane.
+/// Transposes four columns to rows, one for each lane.
 #[inline(always)]
 pub(crate) fn rows<S: Simd>([a, b, c, d]: [f64x8<S>; 4]) -> [f64x4<S>; LANES] {
     let ((a, a_high), (b, b_high), (c, c_high), (d, d_high)) = (a.split(), b.split(), c.split(), d.split());
@@ -136,7 +136,7 @@ pub(crate) fn rows<S: Simd>([a, b, c, d]: [f64x8<S>; 4]) -> [f64x4<S>; LANES] {
     [r0, r1, r2, r3, r4, r5, r6, r7]
 }
 
-/// Rows for columns, columns for rows.
+/// Transposes a 4×4 block.
 #[inline(always)]
 fn turned<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let (ac, bd) = (a.zip_low(c), b.zip_low(d));

@@ -27,7 +27,7 @@ impl<R: Arithmetic> Mat3<R> {
 }
 
 impl<R: Real> Mat3<R> {
-    /// Rounds a matrix of glam.
+    /// Converts a matrix of glam, rounding its numbers.
     pub fn from_glam(m: DMat3) -> Self {
         Self { rows: [0, 1, 2].map(|i| Vec3::from_glam(m.row(i))) }
     }

@@ -1,4 +1,5 @@
-//! Numbers that the sample code is generic over: f64, the truth, and f32, for the price list ([PREC-1]).
+//! The numbers over which the sample code is generic: f64, the truth, and f32, which shows what less precision costs
+//! ([PREC-1]).
 
 mod arithmetic;
 mod bounded;

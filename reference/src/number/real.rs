@@ -1,4 +1,4 @@
-//! The operations that the sample code asks of a number, and nothing more.
+//! The operations that the sample code needs of a number.
 
 use super::{Elementary, Vec3};
 use drypoint_scene::math;
@@ -8,7 +8,7 @@ use fearless_simd::{Simd, f32x4, f64x4};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, MulAssign, Sub, SubAssign};
 
-/// Four numbers of a row of voxels, side by side in a register where the processor has one for them.
+/// Four numbers of a row of voxels, in one register if the processor has a suitable one.
 pub trait RowOfFour<S, R>:
     Copy + Add<Output = Self> + Sub<R, Output = Self> + Mul<R, Output = Self> + Into<[R; 4]>
 {
@@ -16,7 +16,8 @@ pub trait RowOfFour<S, R>:
     fn load(simd: S, numbers: [R; 4]) -> Self;
 }
 
-/// f64 or f32. `+ − × ÷ √` are IEEE 754's; the transcendental ones come from `drypoint_scene::math` alone ([PREC-4]).
+/// f64 or f32. `+ − × ÷ √` are those of IEEE 754. Transcendental functions come from `drypoint_scene::math` alone
+/// ([PREC-4]).
 pub trait Real:
     Elementary<Number = Self, Mask = bool>
     + Debug
@@ -29,7 +30,7 @@ pub trait Real:
     + SubAssign
     + MulAssign
 {
-    /// Four of them in a register.
+    /// Four numbers in a register.
     type Four<S: Simd>: RowOfFour<S, Self>;
 
     /// 0.
@@ -38,14 +39,15 @@ pub trait Real:
     const ONE: Self;
     /// ½.
     const HALF: Self;
-    /// The relative bound of [PREC-3] below which a gradient is rounding: 2⁻⁴⁶, 2⁻²⁰ in f32.
+    /// The relative bound of [PREC-3], up to which a gradient is rounding error: 2⁻⁴⁶, in f32 2⁻²⁰.
     const NO_NORMAL: Self;
-    /// ‖Pv‖ at and below which the direction of a unit vector in a tangent plane is lost to rounding ([CUR-2]): 2⁻²⁶,
-    /// 2⁻¹² in f32, each the root of the number's ε or just under it.
+    /// The ‖Pv‖ up to which the direction of a unit vector in a tangent plane is lost to rounding ([CUR-2]): 2⁻²⁶, in
+    /// f32 2⁻¹². It is the root of ε or slightly less.
     const NO_DIRECTION: Self;
     /// The distance from 1 to the next number.
     const EPSILON: Self;
-    /// Voxels whose largest magnitude has an exponent beyond this are scaled as they are read, lest sums overflow.
+    /// Voxels whose largest magnitude has an exponent beyond this are scaled as they are read, so that sums do not
+    /// overflow.
     const FAR_EXPONENT: i32;
 
     /// The nearest number of this type.
@@ -58,10 +60,10 @@ pub trait Real:
     fn from_voxels<V: Voxel, const N: usize>(v: [V; N]) -> [Self; N];
     /// ⌊x⌋ and x − ⌊x⌋ for 0 ≤ x < 2³¹ (f32: 2²²), without the saturation of an `as` cast and without a library call.
     fn split(self) -> (usize, Self);
-    /// ⌊x⌋ for 0 ≤ x < 2³² by truncation. Slower than [`split`](Self::split) by itself, sooner done where much waits for
-    /// it.
+    /// ⌊x⌋ for 0 ≤ x < 2³² by truncation. It is slower than [`split`](Self::split) alone, but has the lower latency
+    /// where many operations wait for it.
     fn to_index(self) -> usize;
-    /// ⌊x⌋ as a proposal, where a search has the last word; none where a search has to do without.
+    /// ⌊x⌋ as a first guess for a search. None if the search must not use a guess.
     #[inline(always)]
     fn proposed_index(self) -> Option<usize> {
         Some(self.to_index())
@@ -87,13 +89,13 @@ pub trait Real:
         Self::from_f64(f(numbers.map(Self::to_f64)))
     }
 
-    /// The thing that a position is assigned to, in f64.
+    /// Assigns a position by a function in f64.
     #[inline(always)]
     fn assigned<T: Copy + PartialEq>(position: Vec3<Self>, assign: impl Fn(Vec3<f64>) -> T) -> T {
         assign(Vec3::new(position.x.to_f64(), position.y.to_f64(), position.z.to_f64()))
     }
 
-    /// The number itself, which is known to lie in a range up to rounding: an error that leads out of it ends there.
+    /// The number itself, which is known to lie in a range up to rounding. Its error interval is cut to the range.
     #[inline(always)]
     fn known_within(self, _: [f32; 2]) -> Self {
         self
@@ -126,7 +128,7 @@ macro_rules! row_of_four {
 row_of_four!(f64, f64x4);
 row_of_four!(f32, f32x4);
 
-/// 2⁵²: a number below it that is added leaves its nearest whole number in the low bits of the mantissa.
+/// 2⁵². A smaller number added to it leaves its nearest integer in the low bits of the mantissa.
 const MAGIC_F64: f64 = (1u64 << 52) as f64;
 /// 2²³, the same for f32.
 const MAGIC_F32: f32 = (1u32 << 23) as f32;
@@ -187,7 +189,7 @@ impl Real for f64 {
 
     #[inline(always)]
     fn to_index(self) -> usize {
-        // To u32 a saturating cast takes two instructions more than a plain one; to the signed types it takes five.
+        // A saturating cast takes two instructions more than a plain one to u32, and five more to the signed types.
         self as u32 as usize
     }
 
@@ -249,7 +251,7 @@ impl Real for f32 {
 
     #[inline(always)]
     fn to_index(self) -> usize {
-        // To u32 a saturating cast takes two instructions more than a plain one; to the signed types it takes five.
+        // A saturating cast takes two instructions more than a plain one to u32, and five more to the signed types.
         self as u32 as usize
     }
 

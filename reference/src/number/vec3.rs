@@ -1,10 +1,10 @@
-//! Three numbers of the sample loop. glam's vectors are not generic over the number.
+//! Vectors of three numbers of the sample loop. glam's vectors are not generic over the number.
 
 use super::{Arithmetic, Real};
 use drypoint_scene::glam::DVec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A vector or a point; its space is said where it is used.
+/// A vector or a point. Its space is documented where it is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vec3<R> {
     /// First component.
@@ -60,7 +60,7 @@ impl<R: Real> Vec3<R> {
         Self::new(R::ZERO, R::ZERO, R::ZERO)
     }
 
-    /// Rounds a vector of glam.
+    /// Converts a vector of glam, rounding its numbers.
     pub fn from_glam(v: DVec3) -> Self {
         Self::new(R::from_f64(v.x), R::from_f64(v.y), R::from_f64(v.z))
     }

@@ -1,12 +1,12 @@
-//! Open comparisons, followed both ways.
+//! Open comparisons, evaluated both ways.
 //!
-//! If errors leave a comparison of two [`Bounded`] numbers open, an f32 renderer may go the other way. [`follow`] runs
-//! a computation once by the values, and once more for each other way that is open to it. A formula that is continuous
-//! where it branches gives results whose intervals overlap, and their union is its bound. Disjoint results are a jump: there
-//! the picture hangs on a [`Decision`].
+//! If errors leave a comparison of two [`Bounded`] numbers open, an f32 renderer may decide it the other way.
+//! [`follow`] runs a computation once by the values, and once more for each other way. If a formula is continuous where
+//! it branches, the intervals of its results overlap, and their union is its bound. Disjoint results are a jump, which
+//! depends on a [`Decision`].
 //!
-//! Minimum, maximum and clamping are no comparisons in this sense: their intervals are known. Outside of [`follow`] every
-//! comparison goes by the values.
+//! Minimum, maximum and clamping are no comparisons in this sense, because their intervals are known. Outside
+//! [`follow`] every comparison uses the values.
 
 use super::{Bounded, Decision};
 use std::cell::RefCell;
@@ -22,7 +22,7 @@ thread_local! {
 /// One run of a computation.
 #[derive(Default)]
 struct Run {
-    /// The ways to take at the first comparisons, by their place among those that are open; then the first ones.
+    /// The indices of the ways to take at the first open comparisons. Later comparisons take way 0.
     script: Vec<usize>,
     made: Vec<Choice>,
 }
@@ -33,7 +33,7 @@ struct Choice {
     kind: Kind,
     /// The values that were compared.
     pair: [u64; 2],
-    /// The number of ways, and the place of the one that was taken.
+    /// The number of ways, and the index of the one that was taken.
     ways: usize,
     taken: usize,
     outcome: Ordering,
@@ -51,14 +51,14 @@ enum Kind {
 pub struct Ways<T> {
     /// The result by the values.
     pub by_value: T,
-    /// The results of other ways, with what was decided otherwise.
+    /// The results of the other ways, with the decision that differs.
     pub others: Vec<(T, Decision)>,
-    /// Whether there were more.
+    /// Whether some ways were left out, because there were too many.
     pub too_many: bool,
 }
 
 impl Run {
-    /// Takes a way at an open comparison. The same two values have one outcome throughout a run.
+    /// Chooses a way at an open comparison. A comparison of the same two values has one outcome throughout a run.
     fn take(&mut self, kind: Kind, pair: [&Bounded; 2], ways: &[Ordering], decision: Decision) -> Ordering {
         let pair = pair.map(|number| number.value().to_bits());
         for made in self.made.iter().filter(|made| made.kind == kind) {
@@ -75,14 +75,14 @@ impl Run {
         outcome
     }
 
-    /// Scripts that part from this run at its comparisons from the `from`-th on.
+    /// Scripts that differ from this run at one of its comparisons from the `from`-th on.
     fn branches(&self, from: usize) -> impl Iterator<Item = Vec<usize>> + '_ {
         let taken = |j: usize| self.made[..j].iter().map(|choice| choice.taken);
         (from..self.made.len())
             .flat_map(move |j| (1..self.made[j].ways).map(move |way| taken(j).chain([way]).collect::<Vec<_>>()))
     }
 
-    /// The decision in which the run differs from that by the values: one that has a name, if there is one.
+    /// The decision in which the run differs from the run by the values. Decisions other than `Step` come first.
     fn decision(&self) -> Decision {
         let mut others = self.made.iter().filter(|choice| choice.taken > 0).map(|choice| choice.decision);
         others.find(|&decision| decision != Decision::Step).unwrap_or_default()
@@ -120,8 +120,8 @@ pub(super) fn choose(by_value: bool, [a, b]: [Bounded; 2], decision: Decision) -
     })
 }
 
-/// Runs a computation on all ways that are open to it. The run by the values is the first one, and also the last one: what
-/// the computation keeps outside of its result is as if there had been no other.
+/// Runs a computation on all open ways. The run by the values is the first one, and is repeated as the last one. So the
+/// state that the computation keeps outside its result is as if there had been no other run.
 pub fn follow<T>(mut compute: impl FnMut() -> T) -> Ways<T> {
     let mut run = |script: Vec<usize>| {
         RUN.set(Some(Run { script, made: Vec::new() }));

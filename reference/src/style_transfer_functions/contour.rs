@@ -21,8 +21,8 @@ impl<R: Real> Contour<R> {
         Self { thickness: R::from_f64(thickness), threshold, fade: fade.map(|ends| ends.map(R::from_f64)) }
     }
 
-    /// τ, the one number that contour test, push and eq. 2 share: the constant threshold, or √(Tκ(2 − Tκ)) of |κ_v|
-    /// in reciprocal world units; times the fade by |g| in [0, 1].
+    /// τ, which contour test, push and eq. 2 share. It is the constant threshold, or √(Tκ(2 − Tκ)) of |κ_v| in
+    /// reciprocal world units, times the fade by |g| in [0, 1].
     #[inline(always)]
     pub fn tau<A: Arithmetic<Number = R>>(&self, kappa: A, g: A) -> A {
         let tau = match self.threshold {
@@ -36,17 +36,17 @@ impl<R: Real> Contour<R> {
     }
 }
 
-/// √(x(2 − x)), x = Tκ clamped to [0, 1]: past 1 the printed root falls again and past 2 it is not real, but a
-/// structure thinner than T is contour throughout. Clamped, the radicand is never negative ([CUR-3]).
+/// √(x(2 − x)), x = Tκ clamped to [0, 1]. Past 1 the printed root falls again, and past 2 it is not real, but a
+/// structure thinner than T is contour throughout. With the clamp, the radicand is never negative ([CUR-3]).
 #[inline(always)]
 pub fn root<A: Arithmetic>(t_kappa: A) -> A {
     let one = t_kappa.one();
-    // In this order of operands what is not a number (0 · ∞) counts as 0.
+    // In this order of operands NaN (0 · ∞) counts as 0.
     let x = t_kappa.zero().max(t_kappa).min(one);
     (x * (one + one - x)).sqrt()
 }
 
-/// Smoothstep t²(3 − 2t) of t = clamp₀₁((|g| − lo)/(hi − lo)). For hi = lo a step, which |g| = lo has passed.
+/// Smoothstep t²(3 − 2t) of t = clamp₀₁((|g| − lo)/(hi − lo)). For hi = lo it is a step, which is 1 at |g| = lo.
 #[inline(always)]
 pub fn fade<A: Arithmetic>(g: A, lo: A::Number, hi: A::Number) -> A {
     let one = g.one();
@@ -57,11 +57,11 @@ pub fn fade<A: Arithmetic>(g: A, lo: A::Number, hi: A::Number) -> A {
     t * t * (one + one + one - (t + t))
 }
 
-/// Pushes (N_x, N_y) outwards along the radius if the sample is on a contour, |N·v| ≤ τ:
-/// r' = min(1, r/δ), δ = 1 − min(1, (τ − |N·v|)/τ).
+/// Pushes (N_x, N_y) outwards along the radius if the sample is on a contour, |N·v| ≤ τ: r' = min(1, r/δ), δ = 1 −
+/// min(1, (τ − |N·v|)/τ).
 ///
-/// δ falls from 1 at |N·v| = τ, where nothing moves, to 0 at the silhouette, where r' = 1. There is no push for τ = 0,
-/// and r = 0 stays 0: it has no direction to be pushed along.
+/// δ falls from 1 at |N·v| = τ, where nothing moves, to 0 at the silhouette, where r' = 1. There is no push for τ = 0.
+/// r = 0 stays 0, because it has no direction.
 #[inline(always)]
 pub fn push<A: Arithmetic>(nx: A, ny: A, n_dot_v: A, tau: A) -> (A, A) {
     let (d, zero) = (n_dot_v.abs(), tau.zero());

@@ -3,13 +3,13 @@
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::shot::SphereFrame;
 
-/// N in the frame of the lit sphere; its x and y are the lookup.
+/// N in the frame of the lit sphere. Its x and y are the coordinates of the lookup.
 ///
-/// `eye` is the paper's: the eye-space normal itself. `view` first turns v onto +z by the smallest rotation,
-/// `R = I + [w]ₓ + [w]ₓ²/(1 + v_z)` with `w = v × z`, so that N·v becomes the z of the result and silhouettes lie on the
-/// rim anywhere in a perspective picture. Where v = z, as in every orthographic view, both give the same bits.
+/// `eye` is the paper's frame: the eye-space normal itself. `view` first turns v onto +z by the smallest rotation, `R =
+/// I + [w]ₓ + [w]ₓ²/(1 + v_z)` with `w = v × z`. N·v then is the z of the result, and silhouettes lie on the rim
+/// anywhere in a perspective picture. If v = z, as in every orthographic view, both give the same bits.
 ///
-/// `n` and `v` are unit vectors in eye space; v_z > −1, which holds for all that lies in front of the eye.
+/// `n` and `v` are unit vectors in eye space. v_z > −1 holds for everything in front of the eye.
 #[inline]
 pub fn on_sphere<R: Real>(frame: SphereFrame, n: Vec3<R>, v: Vec3<R>) -> Vec3<R> {
     match frame {
@@ -21,13 +21,13 @@ pub fn on_sphere<R: Real>(frame: SphereFrame, n: Vec3<R>, v: Vec3<R>) -> Vec3<R>
     }
 }
 
-/// w and 1/(1 + v_z) of the rotation that `view` takes.
+/// w and 1/(1 + v_z) of the rotation for `view`.
 #[inline(always)]
 pub(crate) fn rotation<R: Real>(v: Vec3<R>) -> (Vec3<R>, R) {
     (Vec3::new(v.y, -v.x, R::ZERO), R::ONE / (R::ONE + v.z))
 }
 
-/// The rotation itself.
+/// Applies the rotation to a normal.
 #[inline(always)]
 pub(crate) fn turned<A: Arithmetic>(n: Vec3<A>, w: Vec3<A>, scale: A) -> Vec3<A> {
     let turned = w.cross(n);

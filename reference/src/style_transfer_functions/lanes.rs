@@ -1,4 +1,4 @@
-//! The lookup of styles for eight samples side by side, to the same bits.
+//! The lookup of styles for eight samples side by side. The bits are the same.
 
 use super::{SphereMap, Spheres, StyleIndex};
 use crate::field::lanes::{LANES, whole};
@@ -11,11 +11,11 @@ use fearless_simd::{Simd, f32x8, f64x4, f64x8, mask64x8};
 
 /// The styles of each lane, like [`Blend`](super::Blend). w is that of the [`NodePlaces`] from which the blends are made.
 pub(crate) struct Blends {
-    /// j₀, or the one style that is shown.
+    /// j₀, or the only visible style.
     first: [u32; LANES],
     /// j₁.
     second: [u32; LANES],
-    /// Lanes in which both have a share.
+    /// Lanes in which both styles have a share.
     mixed: u64,
 }
 
@@ -28,7 +28,7 @@ impl Blends {
 }
 
 impl StyleIndex {
-    /// [`blend`](Self::blend) of the visible lanes; of a function whose last node this is.
+    /// [`blend`](Self::blend) of the visible lanes, for a function whose last node is `last`.
     #[inline(always)]
     pub(crate) fn blends<S: Simd>(&self, place: &NodePlaces<S>, last: usize) -> Blends {
         let nodes = place.nodes.each();
@@ -81,7 +81,7 @@ impl Spheres<f64> {
         columns(texels)
     }
 
-    /// Reads a style in each of some lanes, at one normal; in the others its first texel.
+    /// Reads one style in each of `lanes`, at the lane's normal. The other lanes get the first texel of their style.
     #[inline(always)]
     fn read<S: Simd>(&self, styles: &[u32; LANES], lanes: u64, [x, y]: [f64x8<S>; 2], texels: &mut [f64x4<S>; LANES]) {
         let simd = x.simd;
@@ -95,7 +95,7 @@ impl Spheres<f64> {
         let (j, wy) = cell((1.0 - y) * half_side - 0.5, side);
         let asked = mask64x8::from_bitmask(simd, lanes);
         let start = whole(asked.select(j * side + i, f64x8::splat(simd, 0.0)));
-        // Without a branch for each lane, which nothing predicts.
+        // No branch for each lane, since it would be unpredictable.
         for (lane, texel) in texels.iter_mut().enumerate() {
             *texel = self.map(styles[lane] as usize).filtered(simd, start[lane], [wx[lane], wy[lane]]);
         }
@@ -115,12 +115,12 @@ fn straight<S: Simd>(texel: f64x4<S>) -> f64x4<S> {
 }
 
 impl SphereMap {
-    /// Bilinear in the cell whose first texel this is: x, then y.
+    /// Bilinear interpolation in the cell whose first texel is `start`: x, then y.
     #[inline(always)]
     fn filtered<S: Simd>(&self, simd: S, start: usize, [wx, wy]: [f64; 2]) -> f64x4<S> {
         let (wx, wy) = (f64x4::splat(simd, wx), f64x4::splat(simd, wy));
         if self.side == 1 {
-            // The cell has no second texel, and the weights are 0.
+            // If the style has one texel, the cell has no second one, and the weights are 0.
             return f64x4::simd_from(simd, self.texels[0].map(f64::from));
         }
         let row = |at: usize| f32x8::from_slice(simd, self.texels[at..][..2].as_flattened());
@@ -130,7 +130,7 @@ impl SphereMap {
     }
 }
 
-/// The cell of a coordinate and the place in it, as that of one normal.
+/// The cell of a coordinate and the fraction in it, as for a single normal.
 #[inline(always)]
 fn cell<S: Simd>(x: f64x8<S>, side: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let simd = x.simd;

@@ -10,7 +10,7 @@ use drypoint_scene::style::Style;
 /// The index function `ift` (4.1): from the nodes of `tft` to the M distinct styles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StyleIndex {
-    /// None where node k has style k (M = N), for which the paper skips the lookup.
+    /// The style of each node. None if node k has style k (M = N), for which the paper skips the lookup.
     of_node: Option<Vec<u32>>,
 }
 
@@ -43,7 +43,7 @@ impl StyleIndex {
             return Blend { j0: j, j1: j, w, alpha_u };
         }
         let j1 = self.style(node + 1);
-        // A value just below a node can round to the whole way; then the first style has no share.
+        // For a value just below a node, w can round to 1. Then the first style has no share.
         if w >= R::ONE {
             return Blend { j0: j1, j1, w: R::ZERO, alpha_u };
         }
@@ -57,7 +57,7 @@ impl StyleIndex {
 }
 
 impl<R: Real> Blend<R> {
-    /// Whether one style alone is shown.
+    /// Whether only one style is visible.
     #[inline]
     pub fn is_pure(&self) -> bool {
         self.j0 == self.j1 || self.w == R::ZERO
@@ -70,7 +70,7 @@ impl<R: Real> Blend<R> {
     }
 }
 
-/// The styles of two quantities (4.2): those of two rows, mixed in the shares 1 − w and w.
+/// The styles of two quantities (4.2): the blends of two rows, mixed in the shares 1 − w and w.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend2<R> {
     /// j₀₀ and j₁₀, j₀₁ and j₁₁, each pair with w_x.
@@ -86,7 +86,7 @@ impl<R: Real> Blend2<R> {
         Self { rows: patch.rows.each_ref().map(|place| index.blend(place)), w: patch.w }
     }
 
-    /// j₀₀, j₁₀, j₀₁, j₁₁; one without a share is its neighbour.
+    /// j₀₀, j₁₀, j₀₁, j₁₁. A style without a share is replaced by its neighbour.
     #[inline]
     fn styles(&self) -> [usize; 4] {
         let [a, b] = self.rows.map(|row| [row.j0, if row.is_pure() { row.j0 } else { row.j1 }]);
@@ -106,7 +106,7 @@ impl<R: Real> Blend2<R> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres<R> {
     maps: Vec<SphereMap>,
-    /// The chain of each style, where the scene has `[style_mipmaps]`.
+    /// The mip chain of each style, if the scene has `[style_mipmaps]`.
     chains: Vec<MipMap<R>>,
     pub(super) mix: Mix,
 }
@@ -117,12 +117,12 @@ impl<R: Real> Spheres<R> {
         Self { maps: styles.iter().map(SphereMap::new).collect(), chains: Vec::new(), mix }
     }
 
-    /// Adds a mip chain for each style; `styles` must be those that `self` was made from.
+    /// Adds a mip chain for each style. `styles` must be those from which `self` was made.
     pub fn with_mipmaps(self, styles: &[Style]) -> Self {
         Self { chains: styles.iter().map(MipMap::new).collect(), ..self }
     }
 
-    /// The size of the mip chains in memory; none without them.
+    /// The size of the mip chains in bytes. Returns none without mip chains.
     pub fn mipmap_bytes(&self) -> Option<usize> {
         (!self.chains.is_empty()).then(|| self.chains.iter().map(MipMap::bytes).sum())
     }
@@ -132,8 +132,8 @@ impl<R: Real> Spheres<R> {
         &self.maps[j]
     }
 
-    /// (r, g, b, α_d) = (sft(n, j₀₀)(1 − w_x) + sft(n, j₁₀) w_x)(1 − w_y) + (sft(n, j₀₁)(1 − w_x) + sft(n, j₁₁) w_x) w_y
-    /// (4.2); mixed as [`lookup`](Self::lookup) does.
+    /// (r, g, b, α_d) = (sft(n, j₀₀)(1 − w_x) + sft(n, j₁₀) w_x)(1 − w_y) + (sft(n, j₀₁)(1 − w_x) + sft(n, j₁₁) w_x)
+    /// w_y (4.2). Mixed like [`lookup`](Self::lookup).
     #[inline]
     pub fn lookup2(&self, blend: &Blend2<R>, nx: R, ny: R) -> [R; 4] {
         self.mixed2(blend, |j| self.maps[j].sample(nx, ny))
@@ -163,7 +163,7 @@ impl<R: Real> Spheres<R> {
                 }
             };
         }
-        // A row of one style has the same texel twice, which any share returns exactly.
+        // A row of one style has the same texel twice. Every share returns this texel exactly.
         let row = |i: usize| mix(texels[2 * i], texels[2 * i + 1], blend.rows[i].w);
         let [r, g, b, a] = mix(row(0), row(1), blend.w);
         match self.mix {

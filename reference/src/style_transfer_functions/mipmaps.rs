@@ -10,18 +10,18 @@ use drypoint_scene::view::View;
 
 /// p of [STF-10]: the number of rays side by side in a voxel's picture.
 ///
-/// With `picture.samples = n` rays are 1/n of a pixel apart. Such a picture is therefore still the mean of the one that
-/// is n times as large ([RAY-6]).
+/// With `picture.samples = n` rays are 1/n of a pixel apart. Such a picture is therefore still the mean of the n times
+/// larger picture ([RAY-6]).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Footprint<R> {
-    /// p, equal at every depth.
+    /// p at every depth.
     Orthographic(R),
-    /// p at eye depth 1; p falls with the depth.
+    /// p at eye depth 1. p falls with the depth.
     Perspective(R),
 }
 
 impl<R: Real> Footprint<R> {
-    /// p at an eye depth, which in perspective is positive.
+    /// p at an eye depth, which must be positive in perspective.
     #[inline]
     fn at(self, depth: R) -> R {
         match self {
@@ -31,14 +31,14 @@ impl<R: Real> Footprint<R> {
     }
 }
 
-/// λ of [STF-10] but for the size of the style.
+/// λ of [STF-10], without the term of the style's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Detail<R> {
     /// b_κ.
     pub curvature_bias: R,
     /// b_g.
     pub gradient_bias: R,
-    /// ω₀, in radians per voxel.
+    /// ω₀, in radians per voxel: the least turn of a normal.
     pub turn: R,
     /// A voxel in world units.
     pub voxel: R,
@@ -47,7 +47,7 @@ pub struct Detail<R> {
 }
 
 impl<R: Real> Detail<R> {
-    /// Prepares the level of detail for a picture of n×n rays a pixel and a voxel side in world units.
+    /// Prepares the level of detail for a picture of n×n rays for each pixel, and a voxel side in world units.
     pub fn new(level: &LevelOfDetail, view: &View, rays_across: usize, voxel: f64) -> Self {
         let rays = R::from_f64(voxel * rays_across as f64 / view.pixel);
         Self {
@@ -59,10 +59,10 @@ impl<R: Real> Detail<R> {
         }
     }
 
-    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped: the number of levels
-    /// by which the lookup lies below the style's last one. κ is in reciprocal world units and |g| in [0, 1].
+    /// λ − log₂ S = log₂( ½·max(ω₀, b_κ·min(|κ|·voxel, 1)) / p ) + b_g(1 − |g|), not yet clamped. It is the number of
+    /// levels by which the lookup lies below the style's last level. κ is in reciprocal world units and |g| in [0, 1].
     ///
-    /// A normal that turns by ω from one voxel to the next moves the lookup by ½Sω texels at the most, in p rays.
+    /// A normal that turns by ω from one voxel to the next moves the lookup by at most ½Sω texels, within p rays.
     #[inline]
     pub fn below_last(&self, depth: R, kappa: R, g: R) -> R {
         let bend = self.curvature_bias * (kappa.abs() * self.voxel).min(R::ONE);
@@ -71,7 +71,7 @@ impl<R: Real> Detail<R> {
     }
 }
 
-/// The levels of one style above the style itself, sampled.
+/// The levels of one style above the style itself, prepared for lookups.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MipMap<R> {
     /// log₂ S.
@@ -93,7 +93,7 @@ impl<R: Real> MipMap<R> {
     /// bit for bit.
     #[inline]
     pub fn sample(&self, style: &SphereMap, nx: R, ny: R, below_last: R) -> [R; 4] {
-        // In this order of operands what is not a number (turn 0 seen from no distance) counts as 0.
+        // In this order of operands NaN (ω = 0 with infinite p) counts as 0.
         let lambda = R::ZERO.max(below_last + self.last).min(self.last);
         let above = self.levels.iter().position(|(at, _)| *at > lambda).unwrap_or(self.levels.len());
         let (from, lower) = match above.checked_sub(1) {
@@ -104,7 +104,7 @@ impl<R: Real> MipMap<R> {
         if lambda == from {
             return first;
         }
-        // λ is at most that of the last level, so above a level that it has passed there is another.
+        // λ is at most that of the last level, so there is a level above each one that λ has passed.
         let Some((to, upper)) = self.levels.get(above) else { return first };
         mix(first, upper.sample(nx, ny), (lambda - from) / (*to - from))
     }

@@ -2,9 +2,9 @@
 //! 2007.
 //!
 //! A visible sample passes through these modules in order. [`crate::transfer`] gives the position of the value and its
-//! α_u, and [`lookup`] the styles (3.2, 4.1). [`frame`] gives the normal that is looked up. [`curvature_along_ray`]
-//! gives κ_v (3.3), and [`contour`] turns it into the threshold τ (eq. 1) and pushes the normal outwards. The styles
-//! are looked up in their [`sphere_map`]s, or in their [`mipmaps`] (4.3). [`transparency`] makes the opacity (eq. 2),
+//! α_u, and [`lookup`] the styles (3.2, 4.1). [`frame`] gives the normal for the lookup. [`curvature_along_ray`] gives
+//! κ_v (3.3), and [`contour`] converts it to the threshold τ (eq. 1) and pushes the normal outwards. The styles are
+//! looked up in their [`sphere_map`]s, or in their [`mipmaps`] (4.3). [`transparency`] computes the opacity (eq. 2),
 //! per reference length and not yet corrected for the step ([VAL-4]).
 
 pub mod contour;

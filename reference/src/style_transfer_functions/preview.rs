@@ -8,8 +8,8 @@ use drypoint_scene::style::Style;
 /// Sub-pixels along each axis of a pixel.
 const PARTS: usize = 4;
 
-/// The layer `beauty` of a square picture with a sphere of the style on white that touches its sides, antialiased by
-/// 4 × 4 samples a pixel.
+/// The layer `beauty` of a square picture on white. A sphere of the style touches the picture's sides, antialiased by 4
+/// × 4 samples for each pixel.
 pub fn preview(style: &Style, side: usize) -> Picture {
     let map = SphereMap::new(style);
     let mut channels = vec![vec![1.0; side * side]; 4];

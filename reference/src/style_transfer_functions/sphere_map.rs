@@ -5,7 +5,7 @@ use crate::number::Real;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::Style;
 
-/// One style's picture, sampled.
+/// The picture of one style, prepared for lookups.
 ///
 /// Texels are rounded to f32 once, for every precision of the samples. This is the precision of a graphics card's
 /// texture, and far finer than any painted picture. A style of 192² texels then takes 0.6 MB, and a core keeps two of
@@ -24,7 +24,7 @@ impl SphereMap {
         Self::from_texels(style.side, &style.texels)
     }
 
-    /// The map of S × S texels with the same property.
+    /// The map of S × S texels that are extended from the rim.
     pub(super) fn from_texels(side: usize, texels: &[Rgba]) -> Self {
         let texels: Vec<[f32; 4]> = texels.iter().map(|texel| texel.map(|c| c as f32)).collect();
         let range = |c: usize| {
@@ -48,7 +48,7 @@ impl SphereMap {
         let half_side = R::from_f64(self.side as f64) * R::HALF;
         let (i, wx) = cell((nx + R::ONE) * half_side - R::HALF, self.side);
         let (j, wy) = cell((R::ONE - ny) * half_side - R::HALF, self.side);
-        // With a single texel the cell has no second one, and the weight is 0.
+        // A single texel has no neighbour, and the neighbour's weight is 0.
         let next = usize::from(self.side > 1);
         let row = |j: usize| {
             let texel = |at: usize| self.texels[at].map(|c| R::from_f64(f64::from(c)));

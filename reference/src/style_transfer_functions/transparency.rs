@@ -8,9 +8,9 @@ use drypoint_scene::shot::Transparency;
 ///
 /// Illustrative: α_u^(0.5 + max(0, |N·v| − τ)(1 − |g|)), eq. 2. On a contour, and where the gradient is strong, the
 /// exponent is ½ and the structure keeps more of its opacity. Flat and homogeneous places lose opacity first. α_u = 1
-/// gives 1 and α_u = 0 gives 0, exactly: the paper's two constraints. Plain: α_u.
+/// gives exactly 1 and α_u = 0 exactly 0, which are the paper's two constraints. Plain: α_u.
 ///
-/// α_u, τ and |g| are in [0, 1]; without contours τ = 0.
+/// α_u, τ and |g| are in [0, 1]. Without contours τ = 0.
 #[inline(always)]
 pub fn share<A: Elementary>(transparency: Transparency, alpha_u: A, n_dot_v: A, tau: A, g: A) -> A {
     let (zero, one) = (alpha_u.zero(), alpha_u.one());

@@ -2,8 +2,8 @@
 
 use drypoint_scene::glam::DVec3;
 
-/// The depths at which the line `origin + along · depth` enters and leaves a closed box, all in the box's own axes. None where it
-/// misses the box, which on its surface it does not.
+/// The depths at which the line `origin + along · depth` enters and leaves a closed box, all in the box's own axes.
+/// Returns none if the line misses the box. A line in the box's surface meets it.
 pub fn through_box([origin, along]: [DVec3; 2], [lo, hi]: [DVec3; 2]) -> Option<[f64; 2]> {
     let mut range = [f64::NEG_INFINITY, f64::INFINITY];
     for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! Smooth cutaways (6.2, 7; [VS-7]): a funnel about an object, from a smoothed map of depths.
+//! Smooth cutaways (6.2, 7; [VS-7]): a funnel about an object, from a smoothed depth map.
 
 use drypoint_scene::math;
 use drypoint_scene::parallel;
@@ -14,14 +14,15 @@ pub struct FunnelMap {
 /// The least coverage c̃ that cuts.
 const LEAST: f64 = 1e-6;
 
-/// Pixels beyond each side of the picture that the map of a funnel looks at: ⌊4σ⌋ + ⌊1.5σ⌋.
+/// Width in pixels of the band beyond each side of the picture that a funnel's map reads: ⌊4σ⌋ + ⌊1.5σ⌋.
 pub fn guard(sigma: f64) -> usize {
     (4.0 * sigma) as usize + (1.5 * sigma) as usize
 }
 
 impl FunnelMap {
-    /// The map of a picture of `size`, from the depths d of its pixels and of a guard band, row by row; −∞ where a ray misses
-    /// the object. c is 1 where d is not −∞; both are dilated by 1.5σ, smoothed by a Gaussian of σ pixels, and d̂ = K∗(cd)/c̃.
+    /// The map of a picture of `size`. `depths` holds the depths d of its pixels and of a guard band, row by row; −∞ if
+    /// a ray misses the object. c is 1 if d is not −∞. Both are dilated by 1.5σ and smoothed by a Gaussian of σ pixels.
+    /// Then d̂ = K∗(cd)/c̃.
     ///
     /// # Panics
     /// If there is not one depth for each pixel.
@@ -44,8 +45,8 @@ impl FunnelMap {
         Self { width, pixels: (0..width * height).map(pixel).collect() }
     }
 
-    /// d̃ at a pixel, for a ray that enters the background's box at z_in: z_in + min(1, 2c̃)(d̂ − z_in), or d itself where the
-    /// ray hits the object and d is larger. −∞ where there is no cut.
+    /// d̃ at a pixel, for a ray that enters the background's box at z_in: z_in + min(1, 2c̃)(d̂ − z_in). It is d itself
+    /// if the ray hits the object and d is larger. It is −∞ where there is no cut.
     pub fn depth(&self, [x, y]: [usize; 2], z_in: f64, d: f64) -> f64 {
         let [c, mean] = self.pixels[y * self.width + x];
         if c <= LEAST {
@@ -60,7 +61,7 @@ impl FunnelMap {
     }
 }
 
-/// The largest depth within a radius of each pixel, whole pixels x² + y² ≤ r².
+/// The largest depth within a radius of each pixel, over pixel offsets with x² + y² ≤ r².
 fn dilated([width, height]: [usize; 2], radius: f64, depths: &[f64]) -> Vec<f64> {
     let reach = radius as usize;
     let half = |y: usize| ((radius * radius - (y * y) as f64).max(0.0).sqrt() as usize).min(width);
@@ -88,7 +89,7 @@ fn taps(sigma: f64) -> Vec<f64> {
     weights.into_iter().map(|w| w / sum).collect()
 }
 
-/// Each row convolved with the taps; beyond its ends is zero.
+/// Each row convolved with the taps. Rows are continued by zeros.
 fn smoothed_rows([width, height]: [usize; 2], taps: &[f64], pixels: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let reach = taps.len() / 2;
     let row = |y: usize| {

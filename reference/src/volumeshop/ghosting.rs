@@ -1,9 +1,9 @@
-//! Ghosting (6.2; [VS-7]): how far the background before an object fades.
+//! Ghosting (6.2; [VS-7]): fading of the background in front of an object.
 
 use crate::number::Real;
 
-/// The factor of an occluder's opacity: max(0, 1 − γ(2 − e)), e its enhancement in [0, 1]. γ = 0 changes nothing, γ = 1
-/// removes everything, and enhanced places, such as contours of strong boundaries, go last.
+/// The factor of an occluder's opacity: max(0, 1 − γ(2 − e)), where e in [0, 1] is its enhancement. γ = 0 changes
+/// nothing, and γ = 1 removes everything. Enhanced places, such as contours of strong boundaries, fade last.
 #[inline]
 pub fn factor<R: Real>(gamma: R, enhancement: R) -> R {
     (R::ONE - gamma * (R::ONE + R::ONE - enhancement)).max(R::ZERO)

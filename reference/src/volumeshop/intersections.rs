@@ -7,8 +7,8 @@ use drypoint_scene::shot::{Dab, IntersectionOpacity};
 /// An unshaded colour and its opacity.
 pub type Unshaded<R> = ([R; 3], R);
 
-/// The opacity of an intersection from both opacities: a the selection's, b the other's. The presets after Porter and Duff
-/// (1984).
+/// The opacity of an intersection from the selection's opacity a and the other object's opacity b. The presets follow
+/// Porter and Duff (1984).
 pub fn opacity<R: Real>(preset: IntersectionOpacity, a: R, b: R) -> R {
     let one = R::ONE;
     let alpha = match preset {
@@ -23,15 +23,15 @@ pub fn opacity<R: Real>(preset: IntersectionOpacity, a: R, b: R) -> R {
     alpha.clamp_01()
 }
 
-/// The mean of two colours by their opacities: (α₁c₁ + α₂c₂)/(α₁ + α₂); none where both are transparent.
+/// The mean of two colours by their opacities: (α₁c₁ + α₂c₂)/(α₁ + α₂). Returns none if both are transparent.
 pub fn mean<R: Real>((c_1, alpha_1): Unshaded<R>, (c_2, alpha_2): Unshaded<R>) -> Option<[R; 3]> {
     let sum = alpha_1 + alpha_2;
     (sum > R::ZERO).then(|| std::array::from_fn(|i| (c_1[i] * alpha_1 + c_2[i] * alpha_2) / sum))
 }
 
-/// A function under a dab, at the value at p and the value at T p. With w = a·exp(−½(((v₀ − at₀)/width₀)² +
-/// ((v₁ − at₁)/width₁)²)), a and c_dab the dab's, this is *over* of Porter and Duff (1984):
-/// α' = w + α(1 − w), c' = (w·c_dab + α(1 − w)·c)/α'. Where α' is 0 nothing changes.
+/// The result of a function under a dab, at the value at p and the value at T p. With w = a·exp(−½(((v₀ − at₀)/width₀)²
+/// + ((v₁ − at₁)/width₁)²)), a and c_dab the dab's, it is *over* of Porter and Duff (1984): α' = w + α(1 − w), c' =
+/// (w·c_dab + α(1 − w)·c)/α'. If α' is 0, nothing changes.
 pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [f64; 2]) -> Unshaded<R> {
     let [u, v] = std::array::from_fn(|i| (values[i] - dab.at[i]) / dab.width[i]);
     let [r, g, b, a] = dab.color;

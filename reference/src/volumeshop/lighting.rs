@@ -10,7 +10,7 @@ use drypoint_scene::shot::LightingParams;
 pub struct LightingFunction<R> {
     width: usize,
     height: usize,
-    /// Row by row from the top.
+    /// Cells, row by row from the top.
     cells: Vec<[R; 4]>,
     /// L: the unit vector towards the light.
     light: Vec3<R>,
@@ -62,7 +62,7 @@ impl<R: Real> LightingFunction<R> {
         let half_steps = |n: usize| R::from_f64((n - 1) as f64) * R::HALF;
         let (i, wx) = cell((x + R::ONE) * half_steps(self.width), self.width);
         let (j, wy) = cell((R::ONE - y) * half_steps(self.height), self.height);
-        // With a single column or row the cell has no second one, and the weight is 0.
+        // A single column or row has no neighbour, and the neighbour's weight is 0.
         let (right, down) = (usize::from(self.width > 1), usize::from(self.height > 1));
         let row = |j: usize| {
             let at = j * self.width + i;

@@ -24,7 +24,7 @@ impl<'a> Memberships<'a> {
         Self { volume, cells: Cells::new(volume.dims()), index_box: [corner(0), corner(1)] }
     }
 
-    /// The membership at a position: trilinear whatever the kernel of the data, and 0 outside the box.
+    /// The membership at a position. It is trilinear whatever the kernel of the data, and 0 outside the box.
     #[inline]
     pub fn at(&self, position: DVec3) -> f64 {
         let [lo, hi] = self.index_box;

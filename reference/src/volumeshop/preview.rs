@@ -22,9 +22,9 @@ const RADIUS: f64 = 0.4;
 const TABLE: f64 = 0.28;
 const FRAME: f64 = 0.005;
 
-/// The layer `beauty` of a square picture on white: a translucent sphere, whose eye space is the light's space, at the upper
-/// right, and the framed table at the lower left, its red, green, blue and alpha as codes of a picture. Antialiased by
-/// 4 × 4 samples a pixel.
+/// The layer `beauty` of a square picture on white. A translucent sphere, whose eye space is the light's space, is at
+/// the upper right. The framed table is at the lower left, its red, green, blue and alpha as codes of a picture. The
+/// picture is antialiased by 4 × 4 samples for each pixel.
 pub fn preview(params: &LightingParams, side: usize) -> Picture {
     let function = LightingFunction::new(params);
     let mut channels = vec![vec![1.0; side * side]; 4];

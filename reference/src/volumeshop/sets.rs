@@ -7,12 +7,12 @@ use drypoint_scene::shot::Fuzzy;
 /// An object set: its colour, and its grade of membership.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ObjectSet<R> {
-    /// Straight, linear.
+    /// Straight, linear colour.
     pub rgb: [R; 3],
     /// μ.
     pub mu: R,
-    /// Whether the set and others of its kind share what is at a place, as the background and the ghosts do: with product
-    /// operators their memberships are added.
+    /// Whether the set shares a place with others of its kind, as the background and the ghosts do. With product
+    /// operators the memberships of such sets are added.
     pub shares: bool,
 }
 
@@ -20,14 +20,14 @@ impl<R: Real> ObjectSet<R> {
     /// A set without members.
     pub const NONE: Self = Self { rgb: [R::ZERO; 3], mu: R::ZERO, shares: false };
 
-    /// Takes another set out of this one: μ_{A − B}.
+    /// Removes another set from this one: μ_{A − B}.
     pub fn without(&mut self, fuzzy: Fuzzy, other: R) {
         self.mu = fuzzy::difference(fuzzy, self.mu, other);
     }
 }
 
-/// Colour and opacity at a place (eqs. 4 and 5): Σcμ/Σμ, and the membership in the union of all sets. Sets stand in their
-/// order, intersections last. Σμ = 0 is transparent.
+/// Colour and opacity at a place (eqs. 4 and 5): Σcμ/Σμ, and the membership in the union of all sets. Sets come in
+/// their order, intersections last. The result is transparent if Σμ = 0.
 pub fn combined<R: Real>(fuzzy: Fuzzy, sets: impl Iterator<Item = ObjectSet<R>> + Clone) -> ([R; 3], R) {
     let members = sets.filter(|set| set.mu > R::ZERO);
     let (mut sum, mut weight) = ([R::ZERO; 3], R::ZERO);
@@ -49,13 +49,13 @@ pub fn combined<R: Real>(fuzzy: Fuzzy, sets: impl Iterator<Item = ObjectSet<R>> 
     (sum.map(|c| c / weight), opacity)
 }
 
-/// The fraction w_N of each object in what sets show together; their sum is 1. `sets` are those of the objects, then
-/// intersections; `met` are the places and the unshaded opacities of the two objects of each intersection.
+/// The fraction w_N of each object in the combined sets. Their sum is 1. `sets` are those of the objects, then the
+/// intersections. `met` holds the index and the unshaded opacity of the two objects of each intersection.
 ///
-/// By eq. 4 the colour is Σcμ/Σμ, so a set has the fraction μ/Σμ of what is shown, and so of its opacity. An intersection
-/// belongs to both of its objects. The mean of their colours is (α₁c₁ + α₂c₂)/(α₁ + α₂), so the first has α₁/(α₁ + α₂) of
-/// it; that holds for intersections of other colours too. Two transparent objects have half of it each. Together
-/// w_N = (μ_N + Σμ_{N∩M}·α_N/(α_N + α_M))/Σμ.
+/// By eq. 4 the colour is Σcμ/Σμ, so a set has the fraction μ/Σμ of the colour, and so of the opacity. An intersection
+/// belongs to both of its objects. The mean of their colours is (α₁c₁ + α₂c₂)/(α₁ + α₂), so the first object has α₁/(α₁
+/// + α₂) of it. This also holds for intersections of other colours. Two transparent objects have half each. In all, w_N
+/// = (μ_N + Σμ_{N∩M}·α_N/(α_N + α_M))/Σμ.
 ///
 /// Opacity is not attributed by the order of the sets in a union, in which no set comes first.
 pub fn fractions<R: Real>(sets: &[ObjectSet<R>], met: &[[(usize, R); 2]], fractions: &mut Vec<f64>) {

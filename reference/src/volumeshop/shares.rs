@@ -1,10 +1,10 @@
-//! Selection sets at a place (eq. 1; [VS-3]): how the background and the selections in it share what is there.
+//! Selection sets at a place (eq. 1; [VS-3]): the shares of the background and of the selections in it.
 
 use super::fuzzy;
 use crate::number::Real;
 use drypoint_scene::shot::Fuzzy;
 
-/// The membership of the background's selection set, and the factor of each f_i that is a ghost's: 1, or 1/max(1, Σf).
+/// The membership of the background's selection set, and the factor of each f_i that a ghost has: 1, or 1/max(1, Σf).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shares<R> {
     /// μ_{S_B}.
@@ -14,13 +14,13 @@ pub struct Shares<R> {
 }
 
 impl<R: Real> Shares<R> {
-    /// Nothing is selected.
+    /// The shares without a selection.
     pub fn whole() -> Self {
         Self { background: R::ONE, of_each: R::ONE }
     }
 
-    /// The shares beside selections with memberships f_i. Zadeh: 1 − max f_i, and f_i. Product: max(0, 1 − Σf_i), and
-    /// f_i/max(1, Σf_i), so that together they are 1.
+    /// The shares of selections with memberships f_i and of the background. Zadeh: f_i, and 1 − max f_i for the
+    /// background. Product: f_i/max(1, Σf_i), and max(0, 1 − Σf_i), which sum to 1.
     pub fn beside(fuzzy: Fuzzy, selections: impl Iterator<Item = R>) -> Self {
         match fuzzy {
             Fuzzy::Zadeh => {

@@ -3,7 +3,7 @@
 use drypoint_scene::math;
 use drypoint_scene::shot::SeedDirection;
 
-/// ‖N_xy‖ up to which a normal points along v and has no direction in the picture.
+/// The ‖N_xy‖ up to which a normal points along v and has no direction in the picture.
 const ALONG_VIEW: f64 = 1.0 / (1u64 << 26) as f64;
 
 /// h_d over the angle of a normal in the picture.
@@ -11,15 +11,15 @@ const ALONG_VIEW: f64 = 1.0 / (1u64 << 26) as f64;
 pub struct DirectionInfluence(SeedDirection);
 
 impl DirectionInfluence {
-    /// Prepares a range of directions; none where it is the full circle, on which h_d is 1 everywhere.
+    /// Prepares a range of directions. Returns none for the full circle, where h_d is 1 everywhere.
     pub fn new(direction: SeedDirection) -> Option<Self> {
         (direction.width < 360.0).then_some(Self(direction))
     }
 
-    /// h_d of a normal's coordinates to the right and upwards in eye space.
+    /// h_d of a normal, given by its coordinates to the right and upwards in eye space.
     ///
-    /// θ = atan2(N_x, N_y) in degrees; d is the distance of θ to `toward` on the circle. h_d is 1 for d ≤ width/2 and falls by
-    /// 1 − smoothstep to 0 at width/2 + softness. A normal along v has h_d = 0.
+    /// θ = atan2(N_x, N_y) in degrees, and d is the distance of θ to `toward` on the circle. h_d is 1 for d ≤ width/2
+    /// and falls by 1 − smoothstep to 0 at width/2 + softness. A normal along v has h_d = 0.
     pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
         if math::hypot(x, y) <= ALONG_VIEW {
             return 0.0;

@@ -13,7 +13,7 @@ impl FocusInfluence {
         Self(focus.clone())
     }
 
-    /// h_p = clamp₀₁(1 − (dist − inner)/falloff) at a place in world space; a step at `inner` for falloff 0.
+    /// h_p = clamp₀₁(1 − (dist − inner)/falloff) at a place in world space. For falloff 0 it is a step at `inner`.
     pub fn at(&self, p: DVec3) -> f64 {
         self.of_distance(self.distance(p))
     }

@@ -6,7 +6,7 @@ use crate::number::lanes::widely;
 
 /// Writes √(dx² + dy²), at most 1, where dx = (S(x + q, y) − S(x − q, y))/2 and dy likewise.
 ///
-/// Differences over ±q pixels are not divided by q: a step of seeds keeps its height, whatever the resolution.
+/// Differences over ±q pixels are not divided by q, so a step of seeds keeps its height at every resolution.
 pub(super) fn gradient_magnitude(s: &SpanImage, q: Taps, border: Border, zeros: &[f64], magnitude: &mut SpanImage) {
     let (width, reach) = (zeros.len(), q.reach());
     let rows = s.rows().dilated(reach, s.height());

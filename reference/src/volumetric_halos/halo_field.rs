@@ -1,4 +1,4 @@
-//! The images of one halo on the planes of a picture: seeds in, halo intensities out ([HALO-4], [HALO-5]).
+//! The images of one halo on the planes of a picture, from seeds to halo intensities ([HALO-4], [HALO-5]).
 
 use super::gradient_image::gradient_magnitude;
 use super::median::median;
@@ -18,7 +18,7 @@ pub struct SpreadParams {
     pub passes: u32,
     /// δ in [0, 1], the amount of spreading.
     pub delta: f64,
-    /// q ≥ 1: distances in pixels over those of the paper.
+    /// q ≥ 1: the ratio of distances in pixels to those of the paper.
     pub stretch: f64,
     /// Whether a 3×3 median of the seeds comes first.
     pub median: bool,
@@ -36,14 +36,14 @@ impl SpreadParams {
         halo::tap_distance(self.stretch, 0)
     }
 
-    /// Returns the pixels of the guard band: all that H at a pixel depends on lies within it. For q = 1 these are
-    /// 2^N + 1 pixels, and one more with the median.
+    /// Returns the width of the guard band in pixels. H at a pixel depends only on pixels within it. For q = 1 the
+    /// width is 2^N + 1, plus one with the median.
     pub fn guard(&self) -> usize {
         halo::guard(self.passes, self.stretch, self.median)
     }
 }
 
-/// A stage of the process that an image of [`HaloField`] shows.
+/// A stage of the process whose image [`HaloField`] computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Process {
     /// H₀ itself.
@@ -76,7 +76,7 @@ pub struct HaloField {
 }
 
 impl HaloField {
-    /// Buffers of the images' size.
+    /// The number of buffers of the images' size.
     pub const BUFFERS: u64 = 4;
 
     /// Makes zero images with a zero border. `size` is width and height with the guard band.
@@ -84,7 +84,7 @@ impl HaloField {
         Self::with_border(size, spread, Border::Zero)
     }
 
-    /// Makes zero images with a border.
+    /// Makes zero images with a given border.
     pub fn with_border(size: [usize; 2], spread: SpreadParams, border: Border) -> Self {
         let image = || SpanImage::new(size);
         let [seeds, source, field, next] = [image(), image(), image(), image()];
@@ -92,7 +92,7 @@ impl HaloField {
         Self { size, spread, border, seeds, source, field, next, zeros, seeded: false, passes_done: 0 }
     }
 
-    /// Returns the bytes that the images of a size take. Large sizes give the largest number.
+    /// Returns the number of bytes of images of a size. The number saturates for huge sizes.
     pub fn bytes_of([width, height]: [usize; 2]) -> u64 {
         let pixels = (width as u64).saturating_mul(height as u64).saturating_mul(8);
         // Each row has a range of two numbers, and there is a row of zeros.
@@ -111,10 +111,10 @@ impl HaloField {
         self.size
     }
 
-    /// Returns S, row by row: all zero after [`new`](Self::new) and after [`generate`](Self::generate). Seeds are in
-    /// [0, 1].
+    /// Returns S, row by row. S is zero after [`new`](Self::new) and after [`generate`](Self::generate). Seeds must be
+    /// in [0, 1].
     ///
-    /// The next generation searches the image for seeds. It is free if this was not called.
+    /// After a call, the next generation searches the image for seeds. Otherwise it costs nothing.
     pub fn seeds_mut(&mut self) -> &mut [f64] {
         self.seeded = true;
         self.seeds.values_mut()
@@ -125,13 +125,13 @@ impl HaloField {
         self.field.values()
     }
 
-    /// Returns the pixels of a row outside which H is zero. The range may be empty.
+    /// Returns the range of a row outside which H is zero. The range may be empty.
     pub fn intensity_range(&self, y: usize) -> std::ops::Range<usize> {
         let span = self.field.row(y).1;
         span.start..span.end
     }
 
-    /// Sets H to zero, at the cost of what is not.
+    /// Sets H to zero. The cost is proportional to the pixels that are not zero.
     pub fn clear(&mut self) {
         self.field.clear();
     }
@@ -141,12 +141,12 @@ impl HaloField {
         self.passes_done
     }
 
-    /// Makes H from the seeds, and sets these to zero. Returns whether any H is not zero.
+    /// Computes H from the seeds, and sets the seeds to zero. Returns whether any H is not zero.
     pub fn generate(&mut self) -> bool {
         self.generate_as(Process::Spread)
     }
 
-    /// Like [`generate`](Self::generate), with the result of a stage of the process as H.
+    /// Like [`generate`](Self::generate), but H is the result of a stage of the process.
     pub fn generate_as(&mut self, process: Process) -> bool {
         if std::mem::take(&mut self.seeded) {
             self.seeds.find_spans();
@@ -155,7 +155,7 @@ impl HaloField {
             self.clear();
             return false;
         }
-        // One step into the pool of threads for all passes.
+        // The pool of threads is entered once for all passes.
         if self.seeds.is_large() {
             parallel::in_pool(&mut || self.make(process));
         } else {

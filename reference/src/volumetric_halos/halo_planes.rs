@@ -1,10 +1,11 @@
-//! The halos of a picture from plane to plane (3.3 and 4): groups of planes, glows and tints ([HALO-7], [HALO-8]).
+//! The halos of a picture from one plane to the next (3.3 and 4): groups of planes, glows and tints ([HALO-7],
+//! [HALO-8]).
 
 use super::{HaloField, HaloProfile, SpreadParams};
 use crate::accumulator::Accumulator;
 use drypoint_scene::shot::{HaloAccumulation, HaloKind, HaloParams, HaloSource};
 
-/// A halo ready for any picture.
+/// A halo prepared for any picture.
 #[derive(Clone, Debug)]
 pub(crate) struct PreparedHalo {
     profile: HaloProfile,
@@ -19,7 +20,8 @@ pub(crate) struct PreparedHalo {
 }
 
 impl PreparedHalo {
-    /// Prepares a halo. `encode` says that colours are composited encoded, `is_watched` that a layer shows its intensities.
+    /// Prepares a halo. `encode` tells whether compositing is encoded, and `is_watched` whether a layer shows the
+    /// halo's intensities.
     pub(crate) fn new(halo: &HaloParams, encode: bool, is_watched: bool) -> Self {
         let spread = &halo.spread;
         Self {
@@ -40,18 +42,18 @@ impl PreparedHalo {
         }
     }
 
-    /// A seed; 0 below the floor.
+    /// The seed s, or 0 if s is below the floor.
     pub(crate) fn floored(&self, s: f64) -> f64 {
         if s < self.spread.floor { 0.0 } else { s }
     }
 
-    /// Whether its intensities count also where no sample follows.
+    /// Whether the halo's intensities count even if no sample follows.
     fn outlives_samples(&self) -> bool {
         self.kind == HaloKind::Emissive || self.is_watched
     }
 }
 
-/// Pixels of the guard band that all halos of a picture need around it.
+/// Width in rays of the guard band that all halos of a picture need.
 pub(crate) fn guard(halos: &[PreparedHalo]) -> usize {
     halos.iter().map(|halo| halo.spread.guard()).max().unwrap_or(0)
 }
@@ -71,13 +73,13 @@ struct HaloImages<'p> {
     field: HaloField,
     /// O; empty for emissive halos.
     occlusion: Vec<f64>,
-    /// Whether S has seeds of a group that has not ended.
+    /// Whether S has seeds of an unfinished group.
     is_seeded: bool,
-    /// Whether H ≠ 0 somewhere and the planes of the group that follows need it.
+    /// Whether H ≠ 0 somewhere and the planes of the next group need it.
     is_due: bool,
 }
 
-/// A mix of colours with those of occlusive halos: c ← keep·c + add, in the blend space.
+/// A mix of a colour with the colours of occlusive halos: c ← keep·c + add, in the blend space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Tint {
     pub(crate) keep: f64,
@@ -88,7 +90,7 @@ impl Tint {
     /// No tint.
     const NONE: Self = Self { keep: 1.0, add: [0.0; 3] };
 
-    /// Mixes a colour in, after the ones before: c ← (1 − m)·c + m·c_h.
+    /// Mixes in a further colour: c ← (1 − m)·c + m·c_h.
     fn mix(self, rgb: [f64; 3], m: f64) -> Self {
         let add = std::array::from_fn(|c| (1.0 - m) * self.add[c] + m * rgb[c]);
         Self { keep: (1.0 - m) * self.keep, add }
@@ -105,7 +107,7 @@ impl<'p> HaloPlanes<'p> {
     /// Bytes of a pixel of the images of one halo: S, H₀, H, working memory and O ([HALO-9]).
     pub(crate) const BYTES_OF_PIXEL: u64 = 8 * (HaloField::BUFFERS + 1);
 
-    /// Images for so many rays across and down, without the guard band.
+    /// Images for a number of rays across and down, without the guard band.
     pub(crate) fn new(halos: &'p [PreparedHalo], [width, height]: [usize; 2]) -> Self {
         let guard = guard(halos);
         let size = [width + 2 * guard, height + 2 * guard];
@@ -124,33 +126,33 @@ impl<'p> HaloPlanes<'p> {
         self.size
     }
 
-    /// The place of a ray of the region in the images.
+    /// The index of a ray of the region in the images.
     pub(crate) fn place(&self, [i, j]: [usize; 2]) -> usize {
         (j + self.guard) * self.size[0] + i + self.guard
     }
 
-    /// The last plane of the first group, of any halo, that ends with or after plane k.
+    /// The last plane of the group, of any halo, that is the first to end at or after plane k.
     pub(crate) fn group_end(&self, k: i64) -> i64 {
         let end = |halo: &HaloImages<'_>| (k.div_euclid(halo.halo.every) + 1) * halo.halo.every - 1;
         self.halos.iter().map(end).min().unwrap_or(i64::MAX)
     }
 
-    /// Whether some H or S waits for planes that follow.
+    /// Whether some H or S is needed on later planes.
     pub(crate) fn is_waiting(&self) -> bool {
         self.halos.iter().any(|halo| halo.is_due || halo.is_seeded)
     }
 
-    /// Whether some intensities count also where no sample follows.
+    /// Whether some intensities count even if no sample follows.
     pub(crate) fn outlive_samples(&self) -> bool {
         self.halos.iter().any(|halo| halo.halo.outlives_samples())
     }
 
-    /// Whether rays have to be visited for some H although they have no sample.
+    /// Whether some H affects rays that have no sample.
     pub(crate) fn reach_all_rays(&self) -> bool {
         self.halos.iter().any(|halo| halo.is_due)
     }
 
-    /// The seed images, cut into strips of so many rows: for each strip a slice of each halo.
+    /// The seed images, cut into strips of `rows` rows. Each strip has a slice for each halo.
     pub(crate) fn seed_strips(&mut self, rows: usize) -> Vec<SeedStrip<'_>> {
         let mut strips: Vec<SeedStrip<'_>> = Vec::new();
         for images in &mut self.halos {
@@ -168,14 +170,14 @@ impl<'p> HaloPlanes<'p> {
         strips
     }
 
-    /// Notes which halos got seeds.
+    /// Records which halos received seeds.
     pub(crate) fn note_seeded(&mut self, seeded: &[bool]) {
         for (images, seeded) in self.halos.iter_mut().zip(seeded) {
             images.is_seeded |= seeded;
         }
     }
 
-    /// Ends the groups that end with plane k: H of the seeds, O = max(O, H), S = 0.
+    /// Ends the groups whose last plane is k: computes H from the seeds, then O = max(O, H) and S = 0.
     pub(crate) fn end(&mut self, k: i64) {
         for images in &mut self.halos {
             if (k + 1).rem_euclid(images.halo.every) != 0 {
@@ -204,13 +206,13 @@ impl<'p> HaloPlanes<'p> {
         }
     }
 
-    /// The tint of all occlusive halos at a place of the images; none where they leave every colour as it is.
+    /// The tint of all occlusive halos at a place of the images. Returns none if it changes no colour.
     #[inline]
     pub(crate) fn tint(&self, place: usize) -> Option<Tint> {
         self.tint_by(place, |_| true)
     }
 
-    /// The tint by some of the occlusive halos. The first of the list is mixed last.
+    /// The tint of the occlusive halos for which `acts` holds. The first in the list is mixed last.
     #[inline]
     fn tint_by(&self, place: usize, acts: impl Fn(&PreparedHalo) -> bool) -> Option<Tint> {
         let mut tint = None;
@@ -226,8 +228,8 @@ impl<'p> HaloPlanes<'p> {
         tint
     }
 
-    /// The premultiplied glow of all emissive halos at a place of the images, for one plane; none where there is none.
-    /// `correct` turns an opacity per reference length into that of one step on the ray ([VAL-4]).
+    /// The premultiplied glow of all emissive halos at a place of the images, for one plane. Returns none without a
+    /// glow. `correct` converts an opacity per reference length to that of one step on the ray ([VAL-4]).
     #[inline]
     pub(crate) fn glow(&self, place: usize, correct: impl Fn(f64) -> f64) -> Option<[f64; 4]> {
         let mut front = Accumulator::empty(0.0);
@@ -249,7 +251,7 @@ impl<'p> HaloPlanes<'p> {
         watched.map(move |images| if images.is_due { images.field.intensities()[place] } else { 0.0 })
     }
 
-    /// Passes over the images so far.
+    /// Number of passes over the images so far.
     pub(crate) fn passes(&self) -> u64 {
         self.halos.iter().map(|images| images.field.passes_done()).sum()
     }
@@ -270,7 +272,7 @@ pub(crate) struct SeedStrip<'a> {
 /// Rows of the seed image of one halo.
 struct SeedImage<'a> {
     pixels: &'a mut [f64],
-    /// M, if seeds come together as their mean.
+    /// M, if the seeds of a group are averaged.
     mean_of: Option<f64>,
     is_seeded: bool,
 }
@@ -288,7 +290,7 @@ impl SeedStrip<'_> {
         image.is_seeded = true;
     }
 
-    /// Which halos got seeds.
+    /// Which halos received seeds.
     pub(crate) fn seeded(&self) -> Vec<bool> {
         self.images.iter().map(|image| image.is_seeded).collect()
     }

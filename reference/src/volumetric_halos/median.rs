@@ -1,4 +1,4 @@
-//! The median of 3×3 seeds, which takes single pixels away before they spread ([HALO-4]).
+//! The median of 3×3 seeds, which removes single pixels before seeds spread ([HALO-4]).
 
 use super::spans::SpanImage;
 use super::taps::{Border, PaddedRow, TappedRows, Taps};
@@ -6,8 +6,8 @@ use crate::number::lanes::widely;
 
 /// Writes the median of each pixel and its eight neighbours.
 ///
-/// Each column of three is put in order, and neighbouring pixels share columns. The median of the nine is the median of
-/// three numbers: the largest of the three least, the median of the three medians, and the least of the three largest.
+/// Each column of three is sorted, and neighbouring pixels share columns. The median of the nine is the median of three
+/// numbers: the maximum of the three minima, the median of the three medians, and the minimum of the three maxima.
 pub(super) fn median(s: &SpanImage, border: Border, zeros: &[f64], to: &mut SpanImage) {
     let (width, taps) = (zeros.len(), Taps { j: 1, f: 0.0 });
     let rows = s.rows().dilated(1, s.height());
@@ -25,11 +25,11 @@ pub(super) fn median(s: &SpanImage, border: Border, zeros: &[f64], to: &mut Span
         let (of_least, of_medians) = rows.split_at_mut(width);
         let [to, of_least, of_medians] = [row, of_least, of_medians].map(|row| &mut row[span.start..span.end]);
         widely(|| {
-            // Columns in order.
+            // Columns are sorted.
             let least = PaddedRow::new(least, 1, inner, border, |to| each_of_three(to, column, least_of_three));
             let medians = PaddedRow::new(medians, 1, inner, border, |to| each_of_three(to, column, median_of_three));
             let largest = PaddedRow::new(largest, 1, inner, border, |to| each_of_three(to, column, largest_of_three));
-            // Three columns.
+            // Three sorted columns are combined.
             each_of_three(of_least, least.around(span), largest_of_three);
             each_of_three(of_medians, medians.around(span), median_of_three);
             each_of_three(to, largest.around(span), least_of_three);
@@ -41,7 +41,7 @@ pub(super) fn median(s: &SpanImage, border: Border, zeros: &[f64], to: &mut Span
     });
 }
 
-/// Writes a number of three rows' numbers.
+/// Writes a function of the numbers of three rows.
 #[inline(always)]
 fn each_of_three(to: &mut [f64], [a, b, c]: [&[f64]; 3], of: impl Fn(f64, f64, f64) -> f64) {
     for (((to, a), b), c) in to.iter_mut().zip(a).zip(b).zip(c) {

@@ -1,8 +1,8 @@
 //! Volumetric halos (Bruckner and Gröller 2007).
 //!
-//! On each plane of samples, seeds mark what is seen from the side ([`seed`], 3.1). They are spread over the picture
-//! ([`HaloField`], 3.2). The intensities become a glow behind the samples of a plane, or a tint of the samples on planes
-//! farther away (3.3).
+//! On each plane of samples, seeds mark surfaces that are seen edge-on ([`seed`], 3.1). They are spread over the
+//! picture ([`HaloField`], 3.2). The intensities become a glow behind the samples of a plane, or a tint of the samples
+//! on planes farther away (3.3).
 
 mod direction;
 mod focus;

@@ -1,27 +1,27 @@
-//! The halo profile (3.3, [HALO-6]): from intensity to colour and opacity.
+//! The halo profile (3.3, [HALO-6]), which maps intensity to colour and opacity.
 
 use drypoint_scene::color;
 use drypoint_scene::shot::ProfileNode;
 
-/// Colour and opacity over the intensity, piecewise linear, constant beyond both ends.
+/// Colour and opacity as functions of the intensity: piecewise linear, constant beyond both ends.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HaloProfile {
     nodes: Vec<ProfileNode>,
     /// The factor of all opacities.
     opacity: f64,
-    /// Whether colours are encoded once they are mixed ([VAL-3]).
+    /// Whether colours are encoded after interpolation ([VAL-3]).
     encode: bool,
 }
 
 impl HaloProfile {
-    /// Prepares nodes in ascending order of the intensity, with a factor of their opacities. `encode` says that colours are
-    /// composited encoded.
+    /// Prepares nodes in ascending order of the intensity, with a factor of their opacities. `encode` tells whether
+    /// compositing is encoded.
     pub fn new(nodes: &[ProfileNode], opacity: f64, encode: bool) -> Self {
         Self { nodes: nodes.to_vec(), opacity, encode }
     }
 
-    /// The straight colour in the blend space, and the opacity; none where nothing is seen. An intensity of 0 is
-    /// transparent whatever the nodes say.
+    /// The straight colour in the blend space, and the opacity. Returns none if the halo is invisible. An intensity of
+    /// 0 is transparent whatever the nodes.
     #[inline]
     pub fn at(&self, intensity: f64) -> Option<([f64; 3], f64)> {
         if intensity <= 0.0 {

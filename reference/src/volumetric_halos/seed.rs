@@ -28,7 +28,7 @@ enum ValueInfluence {
     One,
     /// α_u of the transfer function.
     Opacity,
-    /// A function of its own; none is 0.
+    /// A function given by nodes; none stands for 0.
     Nodes(Box<Piecewise<f64>>),
 }
 
@@ -37,15 +37,15 @@ enum ValueInfluence {
 pub struct SeedPlace {
     /// The value.
     pub value: f64,
-    /// α_u of the transfer function; 0 where nothing asks for it.
+    /// α_u of the transfer function; 0 if it is not needed.
     pub alpha_u: f64,
-    /// The place in world space; 0 where nothing asks for it.
+    /// The place in world space; 0 if it is not needed.
     pub world: DVec3,
-    /// The label; 0 where nothing asks for it.
+    /// The label; 0 if it is not needed.
     pub label: u32,
 }
 
-/// A sample's normal, and what it is compared with.
+/// A sample's normal and related quantities.
 #[derive(Clone, Copy, Debug)]
 pub struct SeedNormal {
     /// N to the right and upwards in eye space.
@@ -54,7 +54,7 @@ pub struct SeedNormal {
     pub n_dot_v: f64,
     /// |g| in [0, 1].
     pub magnitude: f64,
-    /// τ of the halo's own T ([STF-7]); 0 where [`Seeding::thickness`] asks for none.
+    /// τ of the halo's own T ([STF-7]); 0 if [`Seeding::thickness`] is none.
     pub tau: f64,
 }
 
@@ -62,7 +62,7 @@ impl Seeding {
     /// Prepares the seeding of a halo.
     ///
     /// # Errors
-    /// Nodes of h_v that make no function.
+    /// The nodes of h_v do not make a function.
     pub fn new(halo: &HaloParams) -> Result<Self, NodesError> {
         let seed = &halo.seed;
         let value = match &seed.value {
@@ -105,7 +105,7 @@ impl Seeding {
         }
     }
 
-    /// h_v·h_l·h_p, which need no gradient; 0 where s is below the floor whatever the gradient is.
+    /// h_v·h_l·h_p, which need no gradient. It is 0 if s is below the floor whatever the gradient is.
     #[inline]
     pub fn before_gradient(&self, at: &SeedPlace) -> f64 {
         let h_v = match &self.value {
@@ -121,7 +121,7 @@ impl Seeding {
         if h < self.floor { 0.0 } else { h }
     }
 
-    /// s = clamp₀₁(h·|g|^a·(1 − |n·v|)^b), or with clamp₀₁(1 − |n·v|/τ) in place of the power; 0 below the floor.
+    /// s = clamp₀₁(h·|g|^a·(1 − |n·v|)^b), or with clamp₀₁(1 − |n·v|/τ) in place of the power. It is 0 below the floor.
     /// `h` is [`before_gradient`](Self::before_gradient).
     #[inline]
     pub fn strength(&self, h: f64, normal: &SeedNormal) -> f64 {
@@ -129,7 +129,7 @@ impl Seeding {
             return 0.0;
         }
         let sideways = match self.side {
-            // Of unit vectors the product can be an ulp more than 1.
+            // For unit vectors, the product can exceed 1 by an ulp.
             SeedSide::Power { exponent } => power((1.0 - normal.n_dot_v).max(0.0), exponent),
             SeedSide::Curvature { .. } if normal.tau > 0.0 => (1.0 - normal.n_dot_v / normal.tau).max(0.0),
             SeedSide::Curvature { .. } => 0.0,
@@ -140,9 +140,9 @@ impl Seeding {
     }
 }
 
-/// x^y for x in [0, 1]; 0⁰ = 1. Whole exponents are repeated products.
+/// x^y for x in [0, 1]; 0⁰ = 1. Small integer exponents use repeated products.
 fn power(x: f64, y: f64) -> f64 {
-    /// Exponents up to it are repeated products.
+    /// The largest exponent that uses repeated products.
     const MOST_PRODUCTS: f64 = 64.0;
     if y == 0.0 || x >= 1.0 {
         1.0

@@ -1,4 +1,4 @@
-//! Images that know where they are zero: a range a row ([HALO-5]).
+//! Images with a range for each row, outside which the row is zero ([HALO-5]).
 
 use drypoint_scene::parallel;
 
@@ -21,7 +21,7 @@ impl Span {
         self.start == self.end
     }
 
-    /// Returns the least range that has both.
+    /// Returns the smallest range that contains both.
     pub(super) fn union(self, other: Self) -> Self {
         match (self.is_empty(), other.is_empty()) {
             (true, _) => other,
@@ -30,7 +30,7 @@ impl Span {
         }
     }
 
-    /// Returns the range with `reach` pixels more on each side, within a row of `width`. An empty one stays empty.
+    /// Returns the range enlarged by `reach` pixels on each side, within a row of `width`. An empty range stays empty.
     pub(super) fn dilated(self, reach: usize, width: usize) -> Self {
         if self.is_empty() {
             return self;
@@ -38,10 +38,10 @@ impl Span {
         Self { start: self.start.saturating_sub(reach), end: (self.end + reach).min(width) }
     }
 
-    /// Returns the least part of the range outside which a row is zero.
+    /// Returns the smallest part of the range outside which a row is zero.
     pub(super) fn trimmed(self, row: &[f64]) -> Self {
         let values = &row[self.start..self.end];
-        // Blocks of zeros first: without an early end the compiler joins the bits of a block in vectors.
+        // Blocks of zeros are tested first. Without an early exit, the compiler joins the bits of a block in vectors.
         const BLOCK: usize = 32;
         let zero = |block: &[f64]| block.iter().fold(0, |any, v| any | v.to_bits()) == 0;
         let skipped = values.chunks(BLOCK).take_while(|block| zero(block));
@@ -59,7 +59,7 @@ impl Span {
     }
 }
 
-/// Work below this is not worth a second thread: pixels that are written.
+/// The number of written pixels below which a second thread does not pay.
 const SHARED_WORK: usize = 1 << 14;
 
 /// Rows that a thread takes at a time.
@@ -93,7 +93,7 @@ impl SpanImage {
         &self.values
     }
 
-    /// The pixels, to be written anywhere. [`find_spans`](Self::find_spans) must follow.
+    /// The pixels, for writing anywhere. [`find_spans`](Self::find_spans) must be called afterwards.
     pub(super) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
@@ -130,12 +130,12 @@ impl SpanImage {
         self.spans.iter().map(|span| span.len()).sum()
     }
 
-    /// Whether there is so much in the image that threads share the work on it.
+    /// Whether the image has enough pixels for threads to share the work.
     pub(super) fn is_large(&self) -> bool {
         self.area() >= SHARED_WORK
     }
 
-    /// Sets all to zero, at the cost of what is not.
+    /// Sets all pixels to zero. The cost is proportional to the pixels that are not zero.
     pub(super) fn clear(&mut self) {
         self.clear_rows(Span { start: 0, end: self.height() });
     }
@@ -147,9 +147,9 @@ impl SpanImage {
         }
     }
 
-    /// Writes the rows of a range by `write(y, row, scratch)`, which fills a range of the row and returns it. All
-    /// else becomes zero. `work` is about the number of pixels that are written, `scratch` the numbers that a row needs
-    /// beside them.
+    /// Writes the rows of a range by `write(y, row, scratch)`, which fills a range of the row and returns the range.
+    /// All other pixels become zero. `work` is about the number of written pixels, and `scratch` the numbers that a row
+    /// needs as working memory.
     pub(super) fn write_rows(
         &mut self,
         rows: Span,

@@ -4,10 +4,10 @@ use super::spans::{Span, SpanImage};
 use super::taps::{Border, PaddedRow, TappedRows, Taps};
 use crate::number::lanes::widely;
 
-/// Writes F_i of H_{i−1} and, given δ and H₀, mixes it: H_i = δF_i + (1 − δF_i)H₀.
+/// Writes F_i of H_{i−1}. Given δ and H₀, mixes F_i with H₀: H_i = δF_i + (1 − δF_i)H₀.
 ///
 /// w = [1 2 1; 2 4 2; 1 2 1]/16 is the product of [1 2 1]/4 in y and in x, with taps at a distance of k in both. New
-/// values below `floor` are 0.
+/// values below `floor` become 0.
 pub(super) fn pass(
     h: &SpanImage,
     mix: Option<(f64, &SpanImage)>,
@@ -22,7 +22,7 @@ pub(super) fn pass(
     let work = h.area() + 2 * reach * rows.len();
     next.write_rows(rows, work, PaddedRow::len(width, reach), |y, row, scratch| {
         let around = TappedRows::new(h, y, k, border, zeros);
-        // H₀ is zero where H_{i−1} is, so that its range lies within.
+        // H₀ is zero where H_{i−1} is, so its range lies within that of H_{i−1}.
         let (inner, span) = (around.span, around.span.dilated(reach, width));
         if span.is_empty() {
             return span;
@@ -49,7 +49,7 @@ pub(super) fn pass(
     });
 }
 
-/// Copies H₀ where there is no pass: values below `floor` are 0.
+/// Copies H₀ if there is no pass. Values below `floor` become 0.
 pub(super) fn copy(h0: &SpanImage, floor: f64, h: &mut SpanImage) {
     h.write_rows(h0.rows(), h0.area(), 0, |y, row, _| {
         let (values, span) = h0.row(y);
@@ -58,7 +58,7 @@ pub(super) fn copy(h0: &SpanImage, floor: f64, h: &mut SpanImage) {
     });
 }
 
-/// Sets what is below `floor` to 0, and returns the range that is left. The rest of `span` is zero.
+/// Sets values below `floor` to 0, and returns the remaining range. The rest of `span` is zero.
 fn cut(row: &mut [f64], span: Span, floor: f64) -> Span {
     for h in &mut row[span.start..span.end] {
         *h = if *h < floor { 0.0 } else { *h };

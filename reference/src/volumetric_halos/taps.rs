@@ -3,7 +3,7 @@
 use super::spans::{Span, SpanImage};
 use drypoint_scene::shot::halo::split_distance;
 
-/// The values beyond the border of an image.
+/// The values of an image beyond its border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Border {
     /// Zeros: a structure that the frame cuts has no halo along the frame.
@@ -12,8 +12,8 @@ pub enum Border {
     Replicate,
 }
 
-/// Two taps, t pixels before and behind a pixel. Where t is not whole, each is linear between its two neighbours:
-/// (1 − f)·a(±j) + f·a(±(j + 1)), t = j + f.
+/// Two taps, t pixels before and after a pixel. If t is not an integer, each tap is linear between two pixels: (1 −
+/// f)·a(±j) + f·a(±(j + 1)), t = j + f.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Taps {
     pub(super) j: usize,
@@ -21,20 +21,20 @@ pub(super) struct Taps {
 }
 
 impl Taps {
-    /// Makes taps at a distance of t ≥ 0 pixels. A distance beyond `side`, the longer side of the image, is `side`: both
-    /// read what is beyond the border.
+    /// Makes taps at a distance of t ≥ 0 pixels. `side` is the longer side of the image. A larger t is replaced by
+    /// `side`, since both read only values beyond the border.
     pub(super) fn new(t: f64, side: usize) -> Self {
         let (j, f) = split_distance(t, side);
         Self { j, f }
     }
 
-    /// The largest distance of a pixel that is read.
+    /// The largest distance of a pixel that the taps read.
     pub(super) fn reach(self) -> usize {
         self.j + usize::from(self.f > 0.0)
     }
 }
 
-/// The rows of an image that taps in y read for one row, and the range outside which all are zero.
+/// The rows of an image that taps in y read for one row, and the range outside which all of them are zero.
 pub(super) struct TappedRows<'a> {
     /// The row itself, and its range.
     pub(super) middle: (&'a [f64], Span),
@@ -65,7 +65,7 @@ impl<'a> TappedRows<'a> {
     }
 }
 
-/// A row with `pad` pixels of what is beyond the border on each side.
+/// A row with `pad` pixels beyond the border on each side.
 pub(super) struct PaddedRow<'a> {
     values: &'a mut [f64],
     pad: usize,
@@ -79,8 +79,8 @@ impl<'a> PaddedRow<'a> {
 
     /// Makes a row in a space of [`len`](Self::len) numbers. `fill` writes the range outside which the row is zero.
     ///
-    /// Pixels farther than twice `pad` from the range keep earlier numbers. They are not to be read: a filter's values
-    /// differ from zero up to `pad` beyond the range, and its taps go `pad` farther.
+    /// Pixels farther than twice `pad` from the range keep earlier numbers and must not be read. A filter's values
+    /// differ from zero up to `pad` beyond the range, and its taps reach `pad` farther.
     #[inline(always)]
     pub(super) fn new(
         values: &'a mut [f64],
@@ -107,7 +107,7 @@ impl<'a> PaddedRow<'a> {
         Self { values, pad }
     }
 
-    /// The pixels of a range, shifted by `t` ≤ pad to both sides.
+    /// The pixels of a range, shifted by `t` ≤ `pad` to each side.
     #[inline(always)]
     pub(super) fn shifted(&self, span: Span, t: usize) -> [&[f64]; 2] {
         let at = span.start + self.pad;

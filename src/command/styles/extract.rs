@@ -113,12 +113,12 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     numbers?.try_into().ok()
 }
 
-/// Parses points between blanks; none if the text is something else, such as a file name.
+/// Parses points between blanks. Returns none if the text is something else, such as a file name.
 fn inline(text: &str) -> Option<Vec<[f64; 2]>> {
     text.contains(',').then(|| text.split_whitespace().map(numbers).collect()).flatten()
 }
 
-/// Reads a point a line. Empty lines, lines that begin with # and a first line with names are skipped.
+/// Reads one point from each line. Empty lines, lines that begin with # and a first line with names are skipped.
 fn file(path: &Path) -> Result<Vec<[f64; 2]>, Failure> {
     let remedy = "write x,y on each line, in pixels, or all points as \"x,y x,y …\"";
     let text = memory::read_to_string(&Disk, path)

@@ -11,8 +11,8 @@ use drypoint_scene::shot::{GradientEstimator, Kernel, NormalDirection, Outside, 
 /// The gradients of a volume that is not moved.
 pub(crate) const STILL: Module = module!("still");
 
-/// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding ([PREC-3]); `moved` leads from gradients
-/// of the volume to those of a moved field ([VS-2]).
+/// Adds gradients and normals. `no_normal` is the share of a gradient that is rounding error ([PREC-3]). `moved` maps
+/// gradients of the volume to those of a moved field ([VS-2]).
 pub(crate) fn add(
     shader: &mut Shader,
     how: Reconstruction,

@@ -10,7 +10,7 @@ use drypoint_scene::shot::{HessianEstimator, Object, Outside};
 /// Hessians of separable kernels.
 const TENSOR: Module = module!("tensor_hessian");
 
-/// ‖Pv‖ at which the direction Pv is lost to rounding ([CUR-2]).
+/// The ‖Pv‖ up to which the direction Pv is lost to rounding ([CUR-2]).
 fn no_direction(precision: Precision) -> f64 {
     match precision {
         Precision::Single => 1.0 / (1u64 << 12) as f64,
@@ -18,7 +18,7 @@ fn no_direction(precision: Precision) -> f64 {
     }
 }
 
-/// Adds Hessians and the formulas of curvature, after gradients. `is_integer` says whether voxels are whole numbers.
+/// Adds Hessians and the formulas of curvature, after gradients. `is_integer` tells whether voxels are integers.
 pub(crate) fn add(
     shader: &mut Shader,
     object: &Object,

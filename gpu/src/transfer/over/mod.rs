@@ -20,8 +20,8 @@ pub(crate) const COLORS: Module = module!("colors_over_two");
 /// The styles of a place between nodes.
 pub(crate) const STYLES: Module = module!("lookup_over_two");
 
-/// Adds a function over two quantities, after everything that samples are asked for. Both quantities are asked first, and
-/// the rest only where α_u > 0.
+/// Adds a function over two quantities, after all measures of samples. Both quantities are evaluated first, the rest
+/// only if α_u > 0.
 pub(crate) fn add(
     shader: &mut Shader,
     shot: &Shot,
@@ -96,7 +96,7 @@ pub(crate) fn add(
     Ok(())
 }
 
-/// Whether a stage measures something of a query.
+/// Whether a stage measures a quantity of a query.
 pub(crate) fn is_of(stage: &str, query: SampleQuery) -> bool {
     match stage {
         "measure_gradient" | "measure_magnitude" => query.gradient,
@@ -106,7 +106,7 @@ pub(crate) fn is_of(stage: &str, query: SampleQuery) -> bool {
     }
 }
 
-/// A further volume that a function is over, in numbers of the shader.
+/// A further volume over which a function is, in numbers of the shader.
 struct Further<'a> {
     volume: &'a Volume,
     low: f64,
@@ -120,7 +120,7 @@ impl<'a> Further<'a> {
         Self { volume, low, exponent: math::exponent(high - low) }
     }
 
-    /// A value as the shader has it.
+    /// Converts a value to the shader's scale.
     fn number(&self, value: f64) -> f64 {
         math::scale_by_power_of_two(value - self.low, -self.exponent)
     }
@@ -140,12 +140,12 @@ impl<'a> Further<'a> {
     }
 }
 
-/// The expression of a coordinate that is interpolated from numbers on a grid. `more` are the arguments behind its size.
+/// The expression of a coordinate that is interpolated from numbers on a grid. `more` are the arguments after its size.
 fn call(function: &str, first: usize, [x, y, z]: [usize; 3], more: &str) -> String {
     format!("coordinate({function}({first}, vec3({x}, {y}, {z}), {more}))")
 }
 
-/// The expression of a sample's coordinate along an axis, and what it calls.
+/// The expression of a sample's coordinate along an axis. The functions that it calls are added.
 fn coordinate(
     shader: &mut Shader,
     axis: usize,
@@ -205,7 +205,7 @@ fn add_columns(shader: &mut Shader, names: [&'static str; 3], columns: [[f64; 3]
     }
 }
 
-/// Adds the ids of voxels on their own grid ([STF-13]).
+/// Adds the ids of voxels, which lie on a grid of their own ([STF-13]).
 fn add_labels(shader: &mut Shader, labels: &LabelVolume, own: &Grid, lookup: LabelLookup) {
     shader.add(&[module!("labels")]);
     shader.add(&[match lookup {

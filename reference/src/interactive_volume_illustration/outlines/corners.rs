@@ -1,7 +1,8 @@
 //! Corners, at which creases meet ([HATCH-22]).
 //!
-//! At a corner both principal curvatures are equal, and no crease reaches it: edges rounded by r end r from each other.
-//! A crease that turns into another one beside the corner is cut there, and both parts end before it.
+//! At a corner both principal curvatures are equal, and no crease reaches it. Edges rounded by r end at a distance of r
+//! from each other. If a crease turns into another one near the corner, it is cut there, and both parts end before the
+//! corner.
 
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
@@ -13,10 +14,10 @@ const TURN: f64 = 0.3;
 /// Length over which the direction of an end is taken, in voxels. The last voxel may bend towards the corner.
 const TAIL: f64 = 3.0;
 
-/// Length of the parts behind and before a corner, in voxels.
+/// Length of the parts before and after a corner, in voxels.
 const ARM: f64 = 3.0;
 
-/// Cosine of the turn of a crease at a corner, between the parts of [`ARM`] behind and before it.
+/// Cosine of the angle by which a crease turns at a corner, between the parts of [`ARM`] before and after it.
 const CORNER: f64 = 0.5;
 
 /// Length left out on either side of a corner where a crease is cut, in voxels.
@@ -32,8 +33,8 @@ struct CreaseEnd {
     out: DVec3,
 }
 
-/// Joins ends that lie within `reach` world units of each other and go towards each other. Each of them gets the same
-/// place on the surface as a new end.
+/// Joins ends that lie within `reach` world units of each other and point towards each other. Each of them gets the
+/// same place on the surface as a new end.
 pub(super) fn with_corners(surface: &IsoSurface<'_, '_>, mut strokes: Vec<Stroke>, reach: f64) -> Vec<Stroke> {
     let grid = surface.field().volume().grid();
     strokes = strokes.iter().flat_map(|stroke| without_corners(stroke, grid.voxel())).collect();
@@ -41,7 +42,7 @@ pub(super) fn with_corners(surface: &IsoSurface<'_, '_>, mut strokes: Vec<Stroke
     ends.sort_by(|a, b| a.at.x.total_cmp(&b.at.x));
     let mut is_rest = vec![false; strokes.len()];
     for group in groups(&ends, reach) {
-        // A short piece between two ends of one corner is a rest of the corner itself.
+        // A short piece between two ends of one corner belongs to the corner itself.
         let of = |stroke: usize| group.iter().filter(|&&i| ends[i].stroke == stroke).count();
         let short = |stroke: usize| of(stroke) == 2 && strokes[stroke].length() <= reach;
         let rests: Vec<usize> = group.iter().map(|&i| ends[i].stroke).filter(|&stroke| short(stroke)).collect();
@@ -85,7 +86,7 @@ fn without_corners(stroke: &Stroke, voxel: f64) -> Vec<Stroke> {
         let [a, b, c] = [s - ARM * voxel, s, s + ARM * voxel].map(at);
         (b - a).normalize_or_zero().dot((c - b).normalize_or_zero())
     };
-    // The sharpest place of each stretch that turns by more than a corner, a quarter of a voxel apart.
+    // The sharpest place of each stretch that turns by more than a corner, in steps of a quarter of a voxel.
     let places = ((whole - ARM * voxel) / (0.25 * voxel)).max(0.0) as u32;
     let (mut corners, mut sharpest): (Vec<f64>, Option<(f64, f64)>) = (Vec::new(), None);
     for s in (0..=places).map(|k| f64::from(k) * 0.25 * voxel).filter(|&s| s >= ARM * voxel) {

@@ -1,13 +1,13 @@
-//! Creases ([HATCH-22]): crest lines of an iso-surface, on which the curvature κ of larger magnitude is extremal along
+//! Creases ([HATCH-22]): crest lines of an iso-surface. On them the curvature κ of larger magnitude is extremal along
 //! its own principal direction e, and the normal turns fast.
 //!
-//! h = e·∇κ is 0 there (Ohtake, Belyaev and Seidel, *Ridge-valley lines on meshes via implicit surface fitting*, ACM
+//! There h = e·∇κ is 0 (Ohtake, Belyaev and Seidel, *Ridge-valley lines on meshes via implicit surface fitting*, ACM
 //! Transactions on Graphics 23, 2004). κ, e and h are those of the smoothed field at σ = 1 voxel, the finest scale of
-//! [HATCH-3]. At a sharp right angle between voxels the normal then turns by 51° over two voxels. At σ = 2 it would turn
-//! by 30°: coarser scales know no creases of 30° that the finest does not.
+//! [HATCH-3]. At a sharp right angle between voxels, the normal of this field turns by 51° over two voxels. At σ = 2 it
+//! would turn by 30°, so coarser scales find no creases of 30° that the finest scale does not.
 //!
-//! e has no sign of its own. In a tetrahedron the signs of its corners are aligned with each other; near a place, with
-//! the direction at the place. The sign of h follows e, and its zeros do not depend on the choice.
+//! e has no sign of its own. In a tetrahedron the signs of its corners are aligned with each other. Near a place, signs
+//! are aligned with the direction at the place. The sign of h follows e, and its zeros do not depend on the choice.
 
 use super::super::directions::{DirectionEstimator, PrincipalDirections, Thresholds, principal};
 use super::corners::with_corners;
@@ -22,23 +22,24 @@ use crate::number::{Sym3, Vec3};
 use crate::surface::IsoSurface;
 use drypoint_scene::glam::DVec3;
 
-/// Distance of the two places of a difference from their middle, in voxels: the scale of the smoothed field.
+/// Distance of the two places of a difference from their middle, in voxels. It is the scale of the smoothed field.
 const APART: f64 = 1.0;
 
-/// The share of |κ| by which it is smaller, on the mean, one voxel behind and before. A hole of three voxels turns as fast
-/// all around as an edge does, and the noise of a scan makes maxima of some per cent there. On an edge that is rounded by
-/// three voxels |κ| falls by 8 %.
+/// The share of |κ| by which it is smaller, on average, one voxel before and after. A hole of three voxels turns as
+/// fast all around as an edge does, and the noise of a scan makes maxima of a few per cent there. On an edge that is
+/// rounded by three voxels |κ| falls by 8 %.
 const FALL: f64 = 0.05;
 
 /// The share of the least curvature at which a search for a crease begins.
 const NEARLY: f64 = 0.7;
 
-/// The share of the least curvature that all corners of a tetrahedron with a crease have. One voxel beside a right
-/// angle between two planes κ is half of what it is on the edge.
+/// The share of the least curvature that all corners of a tetrahedron with a crease have. At one voxel from a right
+/// angle between two planes, κ is half of its value on the edge.
 const BESIDE: f64 = 0.25;
 
-/// Cosine of the largest angle between the directions of a tetrahedron. They turn with the surface, by up to 56° over
-/// the diagonal of a cell at a right angle, and by 90° where the other principal curvature becomes the larger one.
+/// Cosine of the largest angle between the directions of a tetrahedron. Directions turn with the surface, by up to 56°
+/// over the diagonal of a cell at a right angle. They turn by 90° where the other principal curvature becomes the
+/// larger one.
 const ALIGNED: f64 = 0.4;
 
 /// Finds the creases of a surface at which the normal turns by `angle` or more over two voxels, in degrees. `noise` is
@@ -61,9 +62,9 @@ pub fn creases(surface: &IsoSurface<'_, '_>, angle: f64, noise: f64) -> CreaseSt
 /// The creases of a surface, hidden parts included.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CreaseStrokes {
-    /// The strokes, and the places that they were found from.
+    /// The strokes, and the numbers of places from which they were made.
     pub found: OutlineStrokes,
-    /// Size of the smoothed samples.
+    /// Bytes of the smoothed samples.
     pub bytes: u64,
 }
 
@@ -125,8 +126,8 @@ impl Crests<'_, '_, '_> {
         Some(if self.search.outside == Outside::Low { -bends } else { bends })
     }
 
-    /// κ behind and before a place, one voxel along e and back to the surface's circle of curvature. There the
-    /// derivative of κ is that of the eigenvalue, since e is kept.
+    /// κ before and after a place, one voxel along e and back onto the surface's circle of curvature. Since e is kept,
+    /// the derivative of κ along it is that of the eigenvalue.
     fn around(&self, at: DVec3, crest: &Crest) -> Option<[f64; 2]> {
         let grid = self.search.grid;
         let step = APART * grid.voxel();
@@ -146,7 +147,7 @@ impl Crests<'_, '_, '_> {
 impl SecondFunction for Crests<'_, '_, '_> {
     type Corner = Option<CrestCorner>;
 
-    /// None at places that are flat or have no normal.
+    /// Returns none at places that are flat or have no normal.
     fn at_voxel(&self, voxel: [usize; 3]) -> Option<CrestCorner> {
         let crest = self.crest(self.smoothed.at_voxel(voxel, self.search.no_normal_below, None)?)?;
         let bends = crest.kappa.abs() * self.search.grid.voxel();
@@ -185,7 +186,7 @@ impl SecondFunction for Crests<'_, '_, '_> {
         })
     }
 
-    /// κ is large enough and a maximum of |κ|, and the finest scale is certain of it.
+    /// Whether κ is large enough, |κ| has a maximum there, and the finest scale is certain of the direction.
     fn holds(&self, at: DVec3) -> bool {
         let is_crest = || {
             let crest = self.crest(self.derivatives(at))?;

@@ -1,9 +1,10 @@
 //! Cusps of outlines ([HATCH-18]): places where an outline passes behind its own surface.
 //!
-//! Along the line of sight through an outline f − iso touches 0. The outline is seen where the surface bends away from
-//! that line on both sides, that is, where f has an extremum from outside (Koenderink, *What does the occluding contour
-//! tell us about solid shape?*, Perception 13, 1984). Behind a cusp the surface lies before its own outline, at first
-//! by less than any distance at which visibility is tested: hooks of the hidden part would be drawn.
+//! Along the line of sight through an outline, f − iso touches 0. The outline is visible where the surface bends away
+//! from this line on both sides, that is, where f has an extremum from outside (Koenderink, *What does the occluding
+//! contour tell us about solid shape?*, Perception 13, 1984). Behind a cusp the surface lies in front of its own
+//! outline. At first the distance is smaller than any at which visibility is tested, so hooks of the hidden part would
+//! be drawn.
 
 use super::facing::Facing;
 use crate::field::Outside;
@@ -20,8 +21,8 @@ const APART: f64 = 1.0;
 /// Accuracy of a cusp, in voxels.
 const CHANGE: f64 = 0.05;
 
-/// Returns the parts of outlines before which the surface does not bend towards the eye. `strokes` lie where the surface
-/// turns away.
+/// Returns the parts of outlines in front of which the surface does not bend towards the eye. `strokes` lie where the
+/// surface turns away.
 pub fn before_cusps(surface: &IsoSurface<'_, '_>, view: &View, strokes: &[Stroke]) -> Vec<Stroke> {
     let field = surface.field();
     let grid = field.volume().grid();
@@ -42,7 +43,8 @@ pub fn before_cusps(surface: &IsoSurface<'_, '_>, view: &View, strokes: &[Stroke
     })
 }
 
-/// The parts of a stroke on which a condition holds, asked for every `step` and narrowed down to a share of it.
+/// The parts of a stroke on which a condition holds. It is tested every `step`, and changes are narrowed down to a
+/// share of the step.
 fn parts(stroke: &Stroke, step: f64, holds: &dyn Fn(&StrokeVertex) -> bool) -> Vec<Stroke> {
     let between = |a: &StrokeVertex, b: &StrokeVertex, t: f64| StrokeVertex {
         world: a.world.lerp(b.world, t),
@@ -86,7 +88,7 @@ fn parts(stroke: &Stroke, step: f64, holds: &dyn Fn(&StrokeVertex) -> bool) -> V
         return if begins { vec![stroke.clone()] } else { Vec::new() };
     }
     if stroke.closed && begins && before && parts.len() > 1 {
-        // The last part continues in the first.
+        // The last part of a ring continues in the first.
         let mut last = parts.pop().unwrap_or_default();
         last.pop();
         last.append(&mut parts[0]);

@@ -3,8 +3,9 @@
 //! N·v is computed as g·v, with v towards the eye at each place. So it contains no norm, and its zeros are those of the
 //! gradient that the scene samples.
 //!
-//! With a trilinear kernel and its analytic gradient N·v jumps at the faces of cells, and most places have no root
-//! nearby: of a sphere's circle 38 % is found, in eleven pieces. Every other pair of kernel and gradient closes it.
+//! With a trilinear kernel and its analytic gradient, N·v jumps at the faces of cells, and most places have no root
+//! nearby. Of a sphere's circle only 38 % is found, in eleven pieces. Every other pair of kernel and gradient gives a
+//! closed circle.
 
 use super::search::position;
 use super::second_function::SecondFunction;

@@ -1,5 +1,5 @@
-//! Outlines at clip planes: they end there, and the section of the iso-surface with a plane is one itself ([HATCH-18],
-//! [RAY-8]).
+//! Outlines at clip planes ([HATCH-18], [RAY-8]). Outlines end at a plane, and the section of the iso-surface with the
+//! plane is an outline too.
 
 use super::search::{CurveSearch, OutlineStrokes, measure, position};
 use super::second_function::SecondFunction;
@@ -66,13 +66,13 @@ impl SecondFunction for PlaneSection<'_> {
     }
 }
 
-/// The parts of strokes that planes leave.
+/// The parts of strokes that planes do not cut away.
 pub(super) fn cut_all(strokes: Vec<Stroke>, clip: &ClipPlanes) -> Vec<Stroke> {
     strokes.into_iter().flat_map(|stroke| cut(stroke, clip)).collect()
 }
 
-/// Puts a section onto its plane to the last bits. Its normals become the direction in which its visibility is tested:
-/// halfway between out of the surface and out of the plane, where neither hides it.
+/// Projects a section onto its plane, exactly up to rounding. Its normals become the direction in which its visibility
+/// is tested: halfway between the outward directions of surface and plane, where neither hides it.
 fn on_plane(mut stroke: Stroke, plane: &ClipPlane) -> Stroke {
     for StrokeVertex { world, normal, .. } in &mut stroke.vertices {
         *world -= plane.normal * plane.beyond_in_world(*world);
@@ -82,7 +82,7 @@ fn on_plane(mut stroke: Stroke, plane: &ClipPlane) -> Stroke {
     stroke
 }
 
-/// The parts of a stroke that planes leave.
+/// The parts of a stroke that planes do not cut away.
 fn cut(stroke: Stroke, clip: &ClipPlanes) -> Vec<Stroke> {
     let Stroke { mut vertices, closed, key } = stroke;
     if closed {

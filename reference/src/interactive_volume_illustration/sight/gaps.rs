@@ -42,13 +42,13 @@ pub fn cut_gaps([gap, deeper]: [f64; 2], layers: &mut [Layer], own: usize, view:
     cuts
 }
 
-/// Length of a way beside another line, in gaps, from which on a line is that line's double. On a shorter way one line
-/// runs into the other.
+/// The least length of a stretch beside another line, in gaps, from which on it is a double of that line. On a shorter
+/// stretch one line runs into the other.
 const DOUBLE: f64 = 10.0;
 
-/// Removes the parts of lines that run along another line on the page, at an angle of at most 45°: those within `touch`
-/// mm, which ink covers, and ways of at least ten gaps within `gap` mm. Where both are closest, their depths must differ
-/// by at most `depth`, in world units along the view.
+/// Removes the parts of lines that run along another line on the page, at an angle of at most 45°. These are parts
+/// within `touch` mm, which ink covers, and stretches of at least ten gaps within `gap` mm. Where both lines are
+/// closest, their depths must differ by at most `depth`, in world units along the view.
 pub fn without_doubles(
     lines: &[Polyline],
     others: &[Polyline],
@@ -63,7 +63,7 @@ pub fn without_doubles(
     GappedLines { lines: near.lines, cuts: far.cuts + near.cuts }
 }
 
-/// Removes intervals of segments that form ways shorter than a length in mm.
+/// Removes intervals of segments that form stretches shorter than a length in mm.
 fn without_short_ways(own: &[PageSegment], out: &mut [Vec<[f64; 2]>], least: f64) {
     let lengths: Vec<f64> = own.iter().map(|segment| segment.ends[0].at.distance(segment.ends[1].at)).collect();
     let starts: Vec<f64> = lengths
@@ -77,7 +77,7 @@ fn without_short_ways(own: &[PageSegment], out: &mut [Vec<[f64; 2]>], least: f64
     let mut pieces: Vec<[f64; 2]> =
         out.iter().enumerate().flat_map(|(i, out)| out.iter().map(move |&range| on_line(i, range))).collect();
     pieces.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // Pieces that meet form one way.
+    // Pieces that meet form one stretch.
     let mut ways: Vec<[f64; 2]> = Vec::new();
     for piece in pieces {
         match ways.last_mut() {
@@ -93,10 +93,10 @@ fn without_short_ways(own: &[PageSegment], out: &mut [Vec<[f64; 2]>], least: f64
     }
 }
 
-/// The largest distance of two pieces of one way, as a share of the least length: they are rounded.
+/// The largest distance of two pieces of one stretch, as a share of the least length. It covers rounding.
 const MEET: f64 = 1e-6;
 
-/// The lines that cut, by their depths.
+/// The rule for lines that cut, by their depths.
 #[derive(Clone, Copy)]
 enum CutBy {
     /// Lines nearer by more than this.
@@ -117,7 +117,7 @@ impl CutBy {
         }
     }
 
-    /// Whether a place cuts another one, which is deeper by `deeper`.
+    /// Whether a place cuts another one that is deeper by `deeper`.
     fn cuts(self, deeper: f64) -> bool {
         match self {
             Self::Nearer(least) => deeper > least,
@@ -126,7 +126,7 @@ impl CutBy {
     }
 }
 
-/// Cuts the ways of at least `least` mm out of lines that lie within `gap` mm of segments.
+/// Removes the stretches of at least `least` mm within `gap` mm of segments from lines.
 fn cut(lines: &[Polyline], all: &[PageSegment], view: &View, gap: f64, least: f64, by: CutBy) -> GappedLines {
     let grid = SegmentRaster::new(all, gap);
     let each = parallel::map_of(lines.iter().collect(), &|number, line: &Polyline| {

@@ -1,24 +1,25 @@
-//! Joints of outlines and creases on the page ([HATCH-22]): ends that all but meet are joined, stubs are left out.
+//! Joints of outlines and creases on the page ([HATCH-22]). Ends that nearly meet are joined, and stubs are left out.
 
 use super::gaps::{PageSegment, SegmentRaster, segments};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Polyline, Vertex};
 use drypoint_scene::view::View;
 
-/// Cosine of the largest turn from a line's last direction to the end that it is joined with.
+/// Cosine of the largest turn from a line's last direction to the end with which it is joined.
 const TURN: f64 = 0.5;
 
-/// Cosine of the largest turn from a line's last direction to the side of a line that it is drawn up to.
+/// Cosine of the largest turn from a line's last direction to the side of the line to which it is extended.
 const TURN_ASIDE: f64 = 0.5;
 
-/// Distance of an end from the line that it is drawn up to, in reaches: across a small hole there is another line, too.
+/// The largest distance of an end from the line to which it is extended, in reaches. Across a small hole there is
+/// another line, too.
 const BESIDE: f64 = 0.67;
 
-/// Length over which the direction of an end is taken, in reaches: the last segments may be short and turn.
+/// Length over which the direction of an end is taken, in reaches. The last segments may be short and turn.
 const TAIL: f64 = 1.5;
 
-/// The share of the least length that a line has whose ends both meet others. A short edge between two corners belongs to
-/// the drawing.
+/// The share of the least length that suffices for a line whose ends both meet others. A short edge between two corners
+/// belongs to the drawing.
 const TIED: f64 = 0.75;
 
 /// Settings of joints.
@@ -26,9 +27,9 @@ const TIED: f64 = 0.75;
 pub struct Joining {
     /// The largest distance of two ends on the page, in mm.
     pub reach: f64,
-    /// The distance at which ends meet whatever their directions, in mm: ink covers it.
+    /// The distance at which ends meet whatever their directions, in mm. Ink covers such a distance.
     pub touch: f64,
-    /// The largest difference of their depths, in world units.
+    /// The largest difference of the ends' depths, in world units.
     pub depth: f64,
     /// The least length of a line with a loose end, in mm.
     pub min_length: f64,
@@ -46,7 +47,7 @@ struct LineEnd {
 }
 
 /// Joins the ends of lines: nearest pairs first, then the remaining ends to the lines beside them. Leaves out lines
-/// shorter than the least length; three quarters of it are enough between two others.
+/// shorter than the least length. Between two other lines, three quarters of the least length are enough.
 pub fn joined(lines: Vec<Polyline>, view: &View, how: &Joining) -> Vec<Polyline> {
     let ends = ends(&lines, view, how);
     let lines = chained(lines, &ends, &pairs(&ends, how));
@@ -121,7 +122,7 @@ fn fits(a: &LineEnd, b: &LineEnd, distance: f64, how: &Joining) -> bool {
 
 /// Lines whose paired ends are joined, in the order of their first line.
 fn chained(lines: Vec<Polyline>, ends: &[LineEnd], pairs: &[[usize; 2]]) -> Vec<Polyline> {
-    // For each end of a line the end that follows it: the line and whether it is that line's last.
+    // For each end of a line, the end that follows it: the line's index, and whether it is the line's last end.
     let mut follows: Vec<[Option<(usize, bool)>; 2]> = vec![[None; 2]; lines.len()];
     for &[i, j] in pairs {
         let [a, b] = [ends[i], ends[j]];
@@ -163,7 +164,8 @@ fn chained(lines: Vec<Polyline>, ends: &[LineEnd], pairs: &[[usize; 2]]) -> Vec<
     chained
 }
 
-/// Extends loose ends to the lines beside them. Returns for each line whether its ends meet others; a ring's do.
+/// Extends loose ends to the lines beside them. Returns for each line whether its ends meet others. The ends of a ring
+/// do.
 fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, Vec<[bool; 2]>) {
     let all: Vec<PageSegment> =
         lines.iter().enumerate().flat_map(|(number, line)| segments(line, number, view)).collect();
@@ -186,7 +188,7 @@ fn met(mut lines: Vec<Polyline>, view: &View, how: &Joining) -> (Vec<Polyline>, 
         if let Some((distance, i, s)) = nearest {
             meets[end.line][usize::from(end.is_last)] = true;
             if distance > 0.0 {
-                // An end that runs into a line at a flat angle meets it farther on.
+                // An end that runs into a line at a small angle meets the line farther on.
                 let s = if distance > how.touch { all[i].nearest(end.vertex.at + distance * end.out) } else { s };
                 let on_line = all[i].ends[0].between(&all[i].ends[1], s);
                 added.push((end, Vertex { at: on_line.at, world: on_line.world, ..end.vertex }));

@@ -47,8 +47,8 @@ pub struct StyledStroke {
     pub pens: Vec<PenState>,
 }
 
-/// Share of its opacity that a pencil stroke keeps on grainy paper, `length` along the stroke; `voxel` has the same unit.
-/// Values are random numbers of the stroke's key at whole grains, and linear between them.
+/// Share of its opacity that a pencil stroke keeps on grainy paper, at a `length` along the stroke. `voxel` has the
+/// same unit. Values at whole grains are random numbers of the stroke's key, and linear between them.
 pub fn grain(seed: u64, key: u64, length: f64, voxel: f64) -> f64 {
     let along = length / (GRAIN_SIZE * voxel);
     let first = along.max(0.0).floor();

@@ -31,7 +31,7 @@ pub struct Sight<'a> {
     pub near: f64,
     /// The surface that hides strokes; none if nothing does.
     pub surface: Option<&'a IsoSurface<'a, 'a>>,
-    /// Planes on which strokes end ([RAY-8]). Outlines are cut before they come here.
+    /// Planes on which strokes end ([RAY-8]). Outlines are already cut by them.
     pub clip: &'a ClipPlanes,
     /// Offset of visibility tests along a stroke's normal, in world units. It is δ of [HATCH-7] for strokes on the
     /// surface, and 0 for strokes that already lie in front of it.

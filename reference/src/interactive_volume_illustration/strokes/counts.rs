@@ -39,7 +39,7 @@ pub enum StrokeEnd {
     Direction,
     /// The gradient is too small.
     Gradient,
-    /// The tolerance asks for a step below the smallest one.
+    /// The tolerance requires a step below the smallest one.
     Step,
     /// The directions turn within the smallest step.
     Turns,
@@ -137,8 +137,8 @@ impl AddAssign for RejectCounts {
     }
 }
 
-/// Numbers of places at which a direction was asked for, by scale and cause ([HATCH-3]). With `rule = "raw"` the
-/// first scale stands for the field's own Hessian.
+/// Numbers of queries of directions, by scale and cause ([HATCH-3]). With `rule = "raw"` the first scale stands for the
+/// field's own Hessian.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DirectionCounts {
     /// Places that got a direction, by the scale that gave it: σ = 1, 2, 4 voxels.

@@ -3,14 +3,14 @@
 /// τ above which strokes are crossed.
 const CROSSED: f64 = 0.6;
 
-/// Returns the tones τ₁ and τ₂ of two directions whose spacing prints the tone τ together: 1 − (1 − τ₁)(1 − τ₂) = τ. The
-/// second begins at τ = 0.6, below which τ₂ is negative.
+/// Returns the tones τ₁ and τ₂ of two directions that together print the tone τ: 1 − (1 − τ₁)(1 − τ₂) = τ. The second
+/// direction begins at τ = 0.6, below which τ₂ is negative.
 pub fn crossed_tones(tone: f64) -> [f64; 2] {
     [tone.min(CROSSED), (tone - CROSSED) / (1.0 - CROSSED)]
 }
 
-/// Returns the tone of the second direction if the first keeps a constant distance: all or nothing. The second begins at
-/// the same tone.
+/// Returns the tone of the second direction if the first one keeps a constant distance. It is 0 or 1. The second
+/// direction begins at the same tone as in [`crossed_tones`].
 pub fn crossed_tone(tone: f64) -> f64 {
     f64::from(tone > CROSSED)
 }

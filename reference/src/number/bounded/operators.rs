@@ -69,15 +69,15 @@ impl MulAssign for Bounded {
     }
 }
 
-/// Equal values. Where errors leave it open, both ways are followed; numbers of different values, which an f32 renderer
-/// might find equal, are not: no formula jumps there that does not also jump between them.
+/// Whether the values are equal. If errors leave equality of equal values open, both ways are evaluated. Numbers of
+/// different values that f32 might find equal are not: a formula that jumps there also jumps between the two values.
 impl PartialEq for Bounded {
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value && ways::order(self, other) == Some(Ordering::Equal)
     }
 }
 
-/// The order of the values, or the other one that is open: see [`ways`].
+/// The order of the values, or another open one. See [`ways`].
 impl PartialOrd for Bounded {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         ways::order(self, other)

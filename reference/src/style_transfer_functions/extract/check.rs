@@ -1,19 +1,19 @@
-//! Numbers that a person gives.
+//! Checks of numbers that a user enters.
 
 use super::{ExtractError, LARGEST};
 
-/// A coordinate.
+/// Checks a coordinate.
 ///
 /// # Errors
-/// Values that are not finite or lie beyond all pictures.
+/// The value is not finite or lies beyond all pictures.
 pub(super) fn number(name: impl Into<String>, value: f64) -> Result<f64, ExtractError> {
     if value.abs() <= LARGEST { Ok(value) } else { Err(ExtractError::Number { name: name.into(), value }) }
 }
 
-/// A length.
+/// Checks a length.
 ///
 /// # Errors
-/// The errors of [`number`], and values that are not positive.
+/// The errors of [`number`], or the value is not positive.
 pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, ExtractError> {
     if number(name, value)? > 0.0 { Ok(value) } else { Err(ExtractError::NotPositive { name, value }) }
 }

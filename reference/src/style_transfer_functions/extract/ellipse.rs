@@ -4,8 +4,8 @@
 //!
 //! p = A n / √(nᵀ A n), A = diag(a², b², c²).
 //!
-//! The outline, n_z = 0, therefore has the outline's own normals. A picture does not tell the depth of the body. Unless
-//! c is given it is the smaller of a and b, the radius of the largest circle inside, as for any outline.
+//! The outline, n_z = 0, therefore has its own normals. A picture does not show the depth of the body. Unless c is
+//! given, it is the smaller of a and b, which is the radius of the largest circle inside.
 
 use super::ExtractError;
 use super::check::{number, positive};
@@ -26,18 +26,18 @@ impl Ellipse {
     /// A circle.
     ///
     /// # Errors
-    /// Numbers that are none, a radius that is not positive.
+    /// A number is invalid, or the radius is not positive.
     pub(super) fn circle(x: f64, y: f64, r: f64) -> Result<Self, ExtractError> {
         let centre = [number("x", x)?, number("y", y)?];
         let r = positive("the radius", r)?;
         Ok(Self { centre, a: r, b: r, c: r, axis: [1.0, 0.0] })
     }
 
-    /// An ellipsoid with half axes a and b, the first turned by an angle in degrees from the line to the right,
-    /// anticlockwise as one sees it. c is the half axis across the picture, if it is known.
+    /// An ellipsoid with half axes a and b. a is turned by an angle in degrees from the line to the right,
+    /// anticlockwise as seen. c is the half axis across the picture, if it is known.
     ///
     /// # Errors
-    /// Numbers that are none, half axes that are not positive.
+    /// A number is invalid, or a half axis is not positive.
     pub(super) fn new(
         [x, y]: [f64; 2],
         [a, b]: [f64; 2],
@@ -74,7 +74,7 @@ impl Ellipse {
         (u / self.a) * (u / self.a) + (v / self.b) * (v / self.b) <= 1.0
     }
 
-    /// The corners of the box around it: ± √((a cosφ)² + (b sinφ)²) and so on.
+    /// The lowest and the highest corner of the box around the ellipse.
     pub(super) fn bounds(self) -> [[f64; 2]; 2] {
         let [cos, sin] = self.axis;
         let reach = [math::hypot(self.a * cos, self.b * sin), math::hypot(self.a * sin, self.b * cos)];

@@ -2,18 +2,18 @@
 
 use super::LARGEST;
 
-/// Why no style can be extracted.
+/// Errors of extraction.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExtractError {
-    /// A side of 0, or one that no style is read with.
+    /// The side is 0, or larger than a style may be.
     #[error("a side of {side} texels is not between 1 and {limit}")]
     Side {
         /// The side asked for.
         side: usize,
-        /// The largest.
+        /// The largest side.
         limit: usize,
     },
-    /// A coordinate or a length that is no number, or lies beyond all pictures.
+    /// A coordinate or a length is not a number, or lies beyond all pictures.
     #[error("{name} is {value}: it must be a number between -{LARGEST:e} and {LARGEST:e}")]
     Number {
         /// The name of the number.
@@ -21,7 +21,7 @@ pub enum ExtractError {
         /// The value given.
         value: f64,
     },
-    /// A radius or a half axis that is not positive.
+    /// A radius or a half axis is not positive.
     #[error("{name} is {value}: it must be above 0")]
     NotPositive {
         /// The name of the length.
@@ -29,27 +29,27 @@ pub enum ExtractError {
         /// The value given.
         value: f64,
     },
-    /// An outline with fewer than three different points.
+    /// An outline has fewer than three different points.
     #[error("an outline of {found} different points encloses nothing")]
     TooFewPoints {
         /// Number of different points in a row.
         found: usize,
     },
-    /// An outline with more points than any drawn one has.
+    /// An outline has too many points.
     #[error("an outline of {found} points: at most {limit} are read")]
     TooManyPoints {
         /// Number of points.
         found: usize,
-        /// The most.
+        /// The largest number of points.
         limit: usize,
     },
-    /// An outline that crosses or touches itself, so that it has no inside.
+    /// An outline crosses or touches itself, so that it has no inside.
     #[error("the outline crosses itself: the line from point {} meets the one from point {}", edges[0] + 1, edges[1] + 1)]
     Crossing {
         /// The points, counted from 0, at which the two lines begin.
         edges: [usize; 2],
     },
-    /// A region that has no part in the picture.
+    /// The region does not overlap the picture.
     #[error("the region lies outside the picture of {width} × {height} pixels")]
     Outside {
         /// Pixels from left to right.
@@ -57,13 +57,13 @@ pub enum ExtractError {
         /// Pixels from top to bottom.
         height: usize,
     },
-    /// A region in which no pixel of the picture has its centre.
+    /// No pixel of the picture has its centre in the region.
     #[error("the region holds no pixel of the picture")]
     Empty,
 }
 
 impl ExtractError {
-    /// One line that says what to do.
+    /// One line of advice.
     pub fn help(&self) -> &'static str {
         match self {
             Self::Side { .. } => "256 is enough for most pictures",

@@ -1,14 +1,14 @@
-//! Texels that the picture does not show ([STF-2]): beyond its edge, or of normals that an outline does not have.
+//! Texels that the picture does not show ([STF-2]): beyond its edge, or with normals that an outline does not have.
 //!
-//! They take the harmonic continuation of the known texels: the smoothest one, without seams. By the maximum principle
-//! it stays between the least and the largest known value, channel by channel. Nothing flows through the circumference.
-//! The equation is solved from coarse to fine, as in Bornemann and Deuflhard's cascadic multigrid (1996), with a fixed
+//! They take the harmonic continuation of the known texels, which is the smoothest one and has no seams. By the maximum
+//! principle each channel stays between its least and its largest known value. No flux crosses the circumference. The
+//! equation is solved from coarse to fine, as in Bornemann and Deuflhard's cascadic multigrid (1996), with a fixed
 //! number of sweeps.
 
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::is_inside;
 
-/// Sweeps of Gauss–Seidel a level. The correction from the level below leaves only short waves.
+/// Gauss–Seidel sweeps for each level. The correction from the coarser level leaves only short waves.
 const SWEEPS: usize = 24;
 
 /// A texel of one level.
@@ -20,7 +20,7 @@ enum TexelState {
     Unknown,
 }
 
-/// Colours for all texels inside the disk of S × S; transparent black outside. None if no texel is known.
+/// Colours for all texels inside the disk of S × S; transparent black outside. Returns none if no texel is known.
 pub(super) fn fill(side: usize, texels: &[Option<Rgba>]) -> Option<Vec<Rgba>> {
     let cell = |t: usize| match texels[t] {
         _ if !is_inside(side, t % side, t / side) => TexelState::Outside,

@@ -1,4 +1,4 @@
-//! A body for an outline, and with it a normal for each place inside ([STF-2]).
+//! A body for an outline, which gives a normal to each place inside ([STF-2]).
 //!
 //! Inside the outline −Δu = 1 is solved with u = 0 on the outline, and the body is z² = 4u/k. Sýkora et al.
 //! (*Ink-and-Ray*, 2014) inflate drawings in this way. The outward normal is along
@@ -9,12 +9,12 @@
 //! circle u = (R² − ρ²)/4, for an ellipse u is a multiple of 1 − x²/a² − y²/b². With the right k they become the sphere
 //! and any ellipsoid over the ellipse.
 //!
-//! k sets the depth, which no outline tells. Unless it is given, the body is as deep as the largest circle inside the
-//! outline, as bodies of revolution are: a circle becomes a sphere, an ellipse a spheroid. The body is closed, so it
-//! has every normal at least once.
+//! k sets the depth, which an outline does not show. Unless it is given, the body is as deep as the largest circle
+//! inside the outline. A circle then becomes a sphere, an ellipse a spheroid. The body is closed, so it has every
+//! normal at least once.
 //!
 //! Harmonic interpolation of the outline's normals (Johnston, *Lumo*, 2002) is the other well-known method. It makes a
-//! sphere of a circle too, but of no other ellipse an ellipsoid. It was farther from the blobs of the tests.
+//! sphere of a circle, but does not make an ellipsoid of another ellipse. In the tests it was farther from the blobs.
 //!
 //! The equation is solved by differences on a square grid whose arms are cut at the outline (Shortley and Weller 1938),
 //! which is exact where u is quadratic. The solver is successive over-relaxation with Young's factor.
@@ -25,13 +25,13 @@ use drypoint_scene::math;
 /// Nodes along the longer side of the outline's box. The normal varies slowly; the picture is read at its own pixels.
 const NODES: usize = 256;
 
-/// Sweeps at the most. A disk takes about 3 NODES.
+/// The largest number of sweeps. A disk takes about 3 NODES.
 const SWEEPS: usize = 8 * NODES;
 
-/// The share of the largest u below which no change of a sweep counts.
+/// The share of the largest u below which a change is negligible.
 const CONVERGED: f64 = 1e-9;
 
-/// An arm is never shorter than this share of the spacing: its reciprocal must be finite.
+/// The shortest arm, as a share of the spacing. Its reciprocal must be finite.
 const SHORTEST: f64 = 1e-9;
 
 /// A place in the picture (y down) with the components (N_x, N_y) of its unit normal (y up).
@@ -41,7 +41,7 @@ pub(super) struct Corner {
     pub(super) normal: [f64; 2],
 }
 
-/// One of the four ways from a node.
+/// One of the four arms of a node.
 #[derive(Clone, Copy)]
 struct Arm {
     length: f64,
@@ -68,8 +68,8 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Inflates an outline to a depth in pixels, the body's extent out of the picture. None: the radius of the largest
-    /// circle inside the outline.
+    /// Inflates an outline to a depth in pixels, the body's extent out of the picture. Without a depth it is the radius
+    /// of the largest circle inside the outline.
     pub(super) fn new(outline: &Polygon, depth: Option<f64>) -> Self {
         // A square grid of at most NODES nodes a side, centred on the outline's box.
         let [low, high] = outline.bounds();
@@ -113,7 +113,7 @@ impl Body {
         body
     }
 
-    /// The triangles of the grid, cut off at the outline, whose corners carry the normals.
+    /// The triangles of the grid, cut off at the outline. Their corners carry the normals.
     pub(super) fn triangles(&self) -> Vec<[Corner; 3]> {
         let mut triangles = Vec::new();
         for j in 0..self.size[1] + 1 {
@@ -129,8 +129,8 @@ impl Body {
     fn inscribed(&self, outline: &Polygon) -> f64 {
         let mut best = 0.0;
         for row in 0..self.size[1] {
-            // From one node to the next the distance to the outline grows by the spacing at the most, so most need not
-            // be asked.
+            // Between neighbouring nodes the distance to the outline grows by at most the spacing, so most nodes need
+            // no evaluation.
             let mut most = f64::INFINITY;
             for t in row * self.size[0]..(row + 1) * self.size[0] {
                 if self.nodes[t].is_some() && most > best {
@@ -143,7 +143,7 @@ impl Body {
         best
     }
 
-    /// The part inside of the cell whose lower right node is (i, j), as a polygon.
+    /// The inner part of the cell whose lower right node is (i, j), as a polygon.
     fn cell(&self, i: usize, j: usize) -> Vec<Corner> {
         let node = |column: Option<usize>, row: Option<usize>| {
             let at = column.zip(row).filter(|&(i, j)| i < self.size[0] && j < self.size[1])?;
@@ -152,7 +152,7 @@ impl Body {
         };
         let (left, top) = (i.checked_sub(1), j.checked_sub(1));
         let (right, bottom) = (Some(i), Some(j));
-        // Clockwise, and the arm that leads from each to the next and back.
+        // Corners in clockwise order, with the arms that lead from each to the next one and back.
         let round = [
             (node(left, top), RIGHT, LEFT),
             (node(right, top), BOTTOM, TOP),
@@ -183,7 +183,7 @@ impl Body {
 
     fn at_node(&self, t: usize, node: &GridNode) -> Corner {
         let [gx, gy] = self.gradient(t, node);
-        // Never 0 but for a u that has underflowed.
+        // The length is 0 only for a u that has underflowed.
         let length = (gx * gx + gy * gy + self.flatness * self.u[t]).sqrt().max(f64::MIN_POSITIVE);
         Corner { place: self.place(t), normal: [-gx / length, gy / length] }
     }
@@ -215,7 +215,7 @@ const RIGHT: usize = 1;
 const TOP: usize = 2;
 const BOTTOM: usize = 3;
 
-/// The meetings before and after a coordinate, if it lies inside the outline.
+/// The intersections before and after a coordinate. Returns none if it lies outside the outline.
 fn neighbours(line: &[Intersection], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
     let after = line.partition_point(|meeting| meeting.at <= x);
     if after % 2 == 0 {
@@ -225,7 +225,7 @@ fn neighbours(line: &[Intersection], x: f64) -> Option<[(f64, [f64; 2]); 2]> {
 }
 
 /// An arm towards an intersection with the outline. Rounding can put the next node outside although the outline is
-/// farther away than that node. The outline then counts as lying at the node.
+/// farther away than this node. The outline then counts as lying at the node.
 fn arm((distance, outward): (f64, [f64; 2]), spacing: f64, next_is_inside: bool) -> Arm {
     if next_is_inside && distance >= spacing {
         return Arm { length: spacing, cut: None };
@@ -246,7 +246,7 @@ fn next(columns: usize, t: usize, way: usize) -> usize {
 /// The equation of a node, solved for its u: Σ weight · u + source.
 struct Equation {
     node: usize,
-    /// The four neighbours; past the last node stands the outline's 0.
+    /// The four neighbours. The index after the last node stands for the outline, where u = 0.
     at: [usize; 4],
     weight: [f64; 4],
     source: f64,
@@ -268,7 +268,7 @@ fn solve([columns, rows]: [usize; 2], nodes: &[Option<GridNode>]) -> Vec<f64> {
     let equations: Vec<Equation> =
         (0..outline).filter_map(|t| nodes[t].map(|node| Equation::new(columns, outline, t, &node))).collect();
     let mut u = vec![0.0; outline + 1];
-    // Young's factor for a square of that many nodes; the best one for smaller regions is lower, but hardly.
+    // Young's factor for a square with this many nodes. The best factor for smaller regions is only slightly lower.
     let factor = 2.0 / (1.0 + math::sin(std::f64::consts::PI / (columns.max(rows) + 1) as f64));
     for _ in 0..SWEEPS {
         let (mut change, mut largest) = (0.0f64, 0.0f64);
@@ -286,7 +286,7 @@ fn solve([columns, rows]: [usize; 2], nodes: &[Option<GridNode>]) -> Vec<f64> {
             break;
         }
     }
-    // Over-relaxation may leave what should be a tiny positive number below 0.
+    // Over-relaxation may make a tiny positive number negative.
     u.iter_mut().for_each(|u| *u = u.max(0.0));
     u.truncate(outline);
     u

@@ -5,12 +5,13 @@
 //! body inflated from it. Each place then has a normal. The style shows at each normal what the picture shows at the
 //! place.
 //!
-//! - **Circle, ellipse**: a normal has one place, known by a formula. A texel is the mean over its own square, in parts of
-//!   half a pixel or less: an average where the style is coarser than the picture, cubic interpolation where it is finer.
-//! - **Outline**: a normal may have several places. Every place inside goes to the texel of its normal.
+//! - **Circle, ellipse**: a formula gives the one place of each normal. A texel is the mean over its own square, in
+//!   parts of half a pixel or less: an average where the style is coarser than the picture, cubic interpolation where
+//!   it is finer.
+//! - **Outline**: a normal may have several places. Every place inside contributes to the texel of its normal.
 //!
 //! Texels that the picture does not show, because the region reaches beyond its edge, continue the others smoothly.
-//! Opacity is taken along, so a picture with transparent parts gives a style with them.
+//! Opacity is extracted too, so a picture with transparent parts gives a style with transparent parts.
 
 mod check;
 mod ellipse;
@@ -33,43 +34,43 @@ use patch::Patch;
 /// The largest coordinate or length of a region, in pixels: beyond every picture.
 pub const LARGEST: f64 = 1e7;
 
-/// The most parts into which the texels divide a style's side, so that no region takes minutes. Regions up to half as
-/// many pixels across are averaged without gaps.
+/// The largest number of parts along a style's side, so that no region takes minutes. Regions up to half as many pixels
+/// across are averaged without gaps.
 const FINEST: usize = 16384;
 
-/// A part of a picture, in pixels from its upper left corner: x to the right, y down, the pixel in column i and row j
-/// from (i, j) to (i + 1, j + 1).
+/// A part of a picture, in pixels from its upper left corner: x to the right, y down. The pixel in column i and row j
+/// reaches from (i, j) to (i + 1, j + 1).
 #[derive(Clone, Debug, PartialEq)]
 pub enum Region {
     /// A sphere.
     Circle {
-        /// The middle's distance from the left.
+        /// The centre's distance from the left.
         x: f64,
-        /// The middle's distance from the top.
+        /// The centre's distance from the top.
         y: f64,
         /// The radius.
         r: f64,
     },
     /// An ellipsoid.
     Ellipse {
-        /// The middle's distance from the left.
+        /// The centre's distance from the left.
         x: f64,
-        /// The middle's distance from the top.
+        /// The centre's distance from the top.
         y: f64,
         /// One half axis.
         a: f64,
-        /// The half axis across it.
+        /// The half axis perpendicular to a.
         b: f64,
-        /// Degrees from the line to the right to the half axis a, anticlockwise as one sees it.
+        /// Angle of the half axis a in degrees, anticlockwise as seen from the line to the right.
         angle: f64,
-        /// The half axis out of the picture. None: the smaller of a and b.
+        /// The half axis out of the picture. The default is the smaller of a and b.
         depth: Option<f64>,
     },
     /// Any closed shape.
     Outline {
-        /// The points in their order, x and y of each; the last is joined to the first.
+        /// The points in order, x and y of each. The last point is joined to the first.
         points: Vec<[f64; 2]>,
-        /// The body's extent out of the picture. None: the radius of the largest circle inside the outline.
+        /// The body's extent out of the picture. The default is the radius of the largest circle inside the outline.
         depth: Option<f64>,
     },
 }
@@ -79,18 +80,18 @@ pub enum Region {
 pub struct Extracted {
     /// The layer `beauty` of S × S texels: linear, premultiplied; transparent black outside the disk ([STF-1]).
     pub picture: Picture,
-    /// The share of the disk's texels that the picture shows; the others continue them.
+    /// The share of the disk's texels that the picture shows. The other texels continue them.
     pub shown: f64,
 }
 
-/// A style of side × side texels from a region of a picture.
+/// Extracts a style of side × side texels from a region of a picture.
 ///
 /// Only pixels whose centres lie in the region are read.
 ///
 /// # Errors
-/// A side that no style has; numbers that are not finite or beyond [`LARGEST`]; a radius, half axis or depth that is
-/// not positive; an outline with fewer than three points or with lines that meet; a region outside the picture, or
-/// without a pixel.
+/// The side is 0 or too large. A number is not finite or beyond [`LARGEST`]. A radius, half axis or depth is not
+/// positive. An outline has fewer than three points, or lines that meet. The region lies outside the picture, or
+/// contains no pixel.
 pub fn extract(source: &SourcePicture, region: &Region, side: usize) -> Result<Extracted, ExtractError> {
     if side == 0 || side > MAX_SIDE {
         return Err(ExtractError::Side { side, limit: MAX_SIDE });
@@ -110,7 +111,7 @@ pub fn extract(source: &SourcePicture, region: &Region, side: usize) -> Result<E
     Ok(Extracted { picture: Picture { width: side, height: side, layers }, shown: known as f64 / all as f64 })
 }
 
-/// Refuses a box that has no part in the picture.
+/// Fails for a box that does not overlap the picture.
 fn overlap(source: &SourcePicture, low: [f64; 2], high: [f64; 2]) -> Result<(), ExtractError> {
     let [width, height] = [source.width(), source.height()];
     let apart = high[0] <= 0.0 || high[1] <= 0.0 || low[0] >= width as f64 || low[1] >= height as f64;
@@ -125,7 +126,7 @@ fn ellipse_texels(source: &SourcePicture, ellipse: Ellipse, side: usize) -> Resu
     Ok(parallel::gather(side * side, side, &|row, texels| texels.extend(row.map(texel))))
 }
 
-/// The mean over the square of texel t, as far as it lies in the disk and the picture shows it.
+/// The mean over the part of texel t's square that lies in the disk and that the picture shows.
 fn mean(patch: &Patch, ellipse: Ellipse, side: usize, t: usize) -> Option<Rgba> {
     let texel = 2.0 / side as f64;
     let [left, top] = [(t % side) as f64 * texel - 1.0, 1.0 - (t / side) as f64 * texel];

@@ -8,17 +8,17 @@ use super::polygon::Polygon;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::style::{SourcePicture, is_inside};
 
-/// Parts of a triangle for each pixel of the picture and for each texel of the style that its longest side spans.
+/// Number of parts of a triangle for each pixel of the picture, and for each texel of the style, that its longest side
+/// spans.
 const DENSITY: f64 = 3.0;
 
-/// Parts along a triangle's side at the most.
+/// The largest number of parts along a triangle's side.
 const FINEST: f64 = 512.0;
 
-/// The texels of a style from the area that an outline encloses. None for normals that no place inside has.
+/// The texels of a style from the area that an outline encloses. A texel is none if no place inside has its normal.
 ///
-/// Every place counts by its area: a texel is the mean of all places whose normals it stands for. This is the style
-/// that shows the region with the smallest sum of squared differences. A region with bays has several places for one
-/// normal.
+/// Every place counts by its area. A texel is the mean of all places with its normals. This style shows the region with
+/// the smallest sum of squared differences. A region with bays has several places for one normal.
 ///
 /// # Errors
 /// The errors of [`Polygon::new`], a depth that is not positive, [`ExtractError::Outside`], [`ExtractError::Empty`].
@@ -49,7 +49,7 @@ fn crossings(polygon: &Polygon, y: f64) -> Vec<f64> {
     polygon.meetings(0, y).into_iter().map(|meeting| meeting.at).collect()
 }
 
-/// A style that is being gathered: for each texel Σ area · colour and Σ area.
+/// Sums for the texels of a style: for each texel Σ area · colour and Σ area.
 struct TexelSums {
     side: usize,
     sums: Vec<(Rgba, f64)>,
@@ -67,7 +67,7 @@ impl TexelSums {
         let n = (DENSITY * span).ceil().clamp(1.0, FINEST) as usize;
         let [a, b, c] = corners;
         let area = side_of(a.place, b.place, c.place).abs() / (n * n) as f64;
-        // The middles of n² equal triangles: those that stand as the whole, and those on their heads between them.
+        // The centroids of n² equal triangles: upright ones, and inverted ones between them.
         for row in 0..n {
             for column in 0..2 * (n - row) - 1 {
                 let shift = if column % 2 == 0 { 1.0 / 3.0 } else { 2.0 / 3.0 };

@@ -8,21 +8,22 @@ use drypoint_scene::style::SourcePicture;
 /// region is thinner than that.
 const REACH: usize = 4;
 
-/// The pixels about a region. Only pixels whose centres lie inside it count, as with the texels of a style ([STF-1]).
-/// Every other pixel takes the colour of the nearest of them, so that no background bleeds into the style.
+/// The pixels about a region. Only pixels whose centres lie inside the region count, as with the texels of a style
+/// ([STF-1]). Every other pixel takes the colour of the nearest counting one, so that no background bleeds into the
+/// style.
 pub(super) struct Patch {
     /// The picture's own width and height.
     frame: [f64; 2],
     /// Column and row of the patch's first pixel.
     corner: [usize; 2],
     size: [usize; 2],
-    /// Row by row; none where no pixel inside is within reach.
+    /// Colours, row by row; none if no pixel of the region is within reach.
     pixels: Vec<Option<Rgba>>,
 }
 
 impl Patch {
-    /// The pixels about the box from `low` to `high`, in pixels of the picture; `inside` says whether a centre lies in
-    /// the region. None if no centre does.
+    /// The pixels about the box from `low` to `high`, in pixels of the picture. `inside` tells whether a centre lies in
+    /// the region. Returns none if no centre does.
     pub(super) fn new(
         source: &SourcePicture,
         low: [f64; 2],
@@ -30,7 +31,7 @@ impl Patch {
         inside: impl Fn(f64, f64) -> bool,
     ) -> Option<Self> {
         let frame = [source.width(), source.height()];
-        // Two pixels on each side are what the filter asks for, and one more is for rounding.
+        // The filter needs two pixels on each side; the third covers rounding.
         let corner = [0, 1].map(|c| (low[c] - 3.0).clamp(0.0, frame[c] as f64) as usize);
         let end = [0, 1].map(|c| (high[c] + 3.0).ceil().clamp(0.0, frame[c] as f64) as usize);
         let size = [0, 1].map(|c| end[c].saturating_sub(corner[c]));
@@ -45,9 +46,8 @@ impl Patch {
     }
 
     /// Linear premultiplied light at a place of the picture, whose pixels have their centres at i + ½, j + ½. The
-    /// interpolation is cubic (Catmull–Rom), x then y. Each channel is clamped to the least and the largest of the
-    /// sixteen pixels. The outermost pixels extend to the edge and past it. None beyond the picture, and off the
-    /// region.
+    /// interpolation is cubic (Catmull–Rom), x then y. Each channel is clamped to the range of the sixteen pixels. The
+    /// outermost pixels extend to the edge and beyond. Returns none outside the picture, and away from the region.
     pub(super) fn sample(&self, x: f64, y: f64) -> Option<Rgba> {
         if !(0.0..=self.frame[0]).contains(&x) || !(0.0..=self.frame[1]).contains(&y) {
             return None;
@@ -91,7 +91,7 @@ impl Patch {
     }
 }
 
-/// The colour of the pixel inside whose centre is nearest to that of pixel t; ties go to the smallest row, then column.
+/// The colour of the inside pixel whose centre is nearest to that of pixel t. Ties go to the smallest row, then column.
 fn nearest(own: &[Option<Rgba>], [width, height]: [usize; 2], t: usize) -> Option<Rgba> {
     let [i, j] = [t % width, t / width];
     let (mut best, mut found) = (REACH * REACH + 1, None);

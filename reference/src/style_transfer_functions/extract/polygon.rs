@@ -3,14 +3,14 @@
 use super::ExtractError;
 use super::check::number;
 
-/// The most points that are read: far more than anyone draws, and few enough to be compared with each other.
+/// The largest number of points: far more than anyone draws, and few enough to compare all pairs of lines.
 const MOST: usize = 20_000;
 
 /// Corners in pixels of the picture, y down, in the order in which Σ (xᵢ yᵢ₊₁ − xᵢ₊₁ yᵢ) is positive.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Polygon {
     points: Vec<[f64; 2]>,
-    /// The outward unit normal at each of them, half-way between those of its two lines, y down.
+    /// The outward unit normal at each corner, half-way between those of its two lines, y down.
     normals: Vec<[f64; 2]>,
 }
 
@@ -19,20 +19,21 @@ pub(super) struct Polygon {
 pub(super) struct Intersection {
     /// The coordinate along the line.
     pub(super) at: f64,
-    /// The outward unit normal there, y down, interpolated between those at the two points of the line.
+    /// The outward unit normal there, y down, interpolated between the normals at the ends of the outline's line.
     pub(super) outward: [f64; 2],
 }
 
 impl Polygon {
-    /// The polygon through points in either order; the last is joined to the first.
+    /// The polygon through points in either order. The last point is joined to the first.
     ///
     /// # Errors
-    /// Numbers that are not finite, fewer than three different points in a row, too many, lines that meet.
+    /// A number is not finite. There are too many points, or fewer than three different points in a row. Two lines
+    /// meet.
     pub(super) fn new(given: &[[f64; 2]]) -> Result<Self, ExtractError> {
         if given.len() > MOST {
             return Err(ExtractError::TooManyPoints { found: given.len(), limit: MOST });
         }
-        // Points that differ from the one before.
+        // Points that differ from their predecessor.
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(given.len());
         // Index of each point among those given, for messages.
         let mut kept = Vec::with_capacity(given.len());
@@ -72,7 +73,7 @@ impl Polygon {
         Ok(polygon)
     }
 
-    /// The corners of the box around it.
+    /// The lowest and the highest corner of the box around the polygon.
     pub(super) fn bounds(&self) -> [[f64; 2]; 2] {
         let pick = |choose: fn(f64, f64) -> f64| {
             self.points.iter().fold(self.points[0], |best, p| [choose(best[0], p[0]), choose(best[1], p[1])])
@@ -86,7 +87,7 @@ impl Polygon {
         let other = 1 - axis;
         let mut found: Vec<Intersection> = (0..self.points.len())
             .map(|k| (k, self.edge(k)))
-            // An end on the line belongs to the side below, so a corner counts once where the outline passes through.
+            // An end on the line belongs to the side below. So a corner counts once if the outline passes through.
             .filter(|(_, [p, q])| (p[other] <= across) != (q[other] <= across))
             .map(|(k, [p, q])| {
                 let share = (across - p[other]) / (q[other] - p[other]);
@@ -120,7 +121,7 @@ impl Polygon {
         (0..self.points.len()).map(|k| self.edge(k)).map(|[p, q]| p[0] * q[1] - q[0] * p[1]).sum()
     }
 
-    /// Two lines that meet elsewhere than neighbours do.
+    /// Two lines that meet in more than the common point of neighbours.
     fn crossing(&self) -> Option<[usize; 2]> {
         let n = self.points.len();
         let least = |k: usize| self.edge(k)[0][0].min(self.edge(k)[1][0]);
@@ -156,7 +157,7 @@ fn side([p, q]: [[f64; 2]; 2], r: [f64; 2]) -> f64 {
     (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
 }
 
-/// Whether the way from q to r runs back over the one from p to q.
+/// Whether the segment from q to r runs back over the segment from p to q.
 fn turns_back(p: [f64; 2], q: [f64; 2], r: [f64; 2]) -> bool {
     side([p, q], r) == 0.0 && (q[0] - p[0]) * (r[0] - q[0]) + (q[1] - p[1]) * (r[1] - q[1]) < 0.0
 }

@@ -1,13 +1,14 @@
-//! The membership of a brush, and its composition with that of the selection ([VS-6]).
+//! The membership of a brush, and its composition with a selection ([VS-6]).
 
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
 use drypoint_scene::tables::{Brush, PaintMode};
 
-/// 1/σ² of the Gaussian for a radius of 1: σ = 1/3, so that b is 0.011 at the radius, where it ends.
+/// 1/σ² of the Gaussian for a radius of 1. With σ = 1/3, b is 0.011 at the radius, where the brush ends.
 const INVERSE_VARIANCE: f64 = 9.0;
 
-/// b, the membership of a brush at an offset from its centre; none beyond the brush. With radius 0 it has its centre alone.
+/// b, the membership of a brush at an offset from its centre. Returns none beyond the brush. A brush of radius 0 has
+/// its centre alone.
 pub fn membership(brush: Brush, offset: DVec3, radius: f64) -> Option<f64> {
     if offset == DVec3::ZERO {
         return Some(1.0);

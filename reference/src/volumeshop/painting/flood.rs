@@ -1,4 +1,5 @@
-//! Watershed by a priority flood: basins rise from markers over a relief ([VS-6]).
+//! Watershed by a priority flood: water rises from markers over a relief, and each marker's water forms a basin
+//! ([VS-6]).
 
 use super::region::{neighbour, steps};
 use drypoint_scene::memory::{self, NoRoom};
@@ -15,18 +16,18 @@ pub struct Marker {
     pub basin: u32,
 }
 
-/// Bytes of a voxel that waits.
+/// Bytes of a voxel in the queue.
 const WAITING: u64 = size_of::<(u64, u64, usize)>() as u64;
 
-/// The basin of each voxel, x fastest; 0 where no flood arrives.
+/// The basin of each voxel, x fastest; 0 if no flood reaches it.
 ///
-/// The lowest of the voxels at the water's edge is flooded next, and of equally low ones that which the water reached first.
-/// A voxel that lies below the water is as high as the water. It belongs to the basin from which it was reached first. Water
-/// goes through faces and through voxels that let it pass. `relief` is asked once about each of them. The queue takes far
-/// longer than a call of either function, so that one compiled copy serves all volumes and fields.
+/// The lowest voxel at the water's edge is flooded next. Of equally low ones, the water takes the first that it
+/// reached. A voxel below the water gets the water's height. It belongs to the basin that reached it first. Water flows
+/// through faces, and only through voxels that let it pass. `relief` is called once for each of these voxels. The queue
+/// takes far longer than a call of either function, so one compiled copy serves all volumes and fields.
 ///
 /// # Errors
-/// Memory that the budget does not allow.
+/// The budget does not allow the memory.
 pub fn basins(
     dims: [usize; 3],
     markers: &[Marker],
@@ -40,7 +41,7 @@ pub fn basins(
     let mut edge = BinaryHeap::new();
     let mut age = 0u64;
     for marker in markers {
-        // Of two markers at one voxel the last one holds.
+        // If two markers lie at one voxel, the last one counts.
         let basin: &mut u32 = &mut basins[index(marker.voxel)];
         if *basin == 0 {
             edge.push(Reverse((height(relief(marker.voxel)), age, index(marker.voxel))));
@@ -63,7 +64,7 @@ pub fn basins(
     Ok(basins)
 }
 
-/// A whole number that is in the order of the numbers: 0 and −0 are one.
+/// An integer with the order of the numbers. 0 and −0 are equal.
 fn height(relief: f64) -> u64 {
     let bits = (relief + 0.0).to_bits();
     if bits >> 63 == 0 { bits | 1 << 63 } else { !bits }

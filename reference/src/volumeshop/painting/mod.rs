@@ -1,4 +1,4 @@
-//! Volume painting (6.1, [VS-6]): brushes, region growing and watershed change the memberships of a selection, at voxels
+//! Volume painting (6.1, [VS-6]). Brushes, region growing and watershed change the memberships of a selection at voxels
 //! that the transfer function shows.
 
 mod brush;

@@ -12,7 +12,7 @@ use drypoint_scene::volume::{Selection, ShownValues, Volume};
 /// One dab of a brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dab {
-    /// A point of the world; the brush is centred at the nearest voxel.
+    /// A point of the world. The brush is centred at the nearest voxel.
     pub at: DVec3,
     /// Radius in world units.
     pub radius: f64,
@@ -25,11 +25,11 @@ pub struct Dab {
 /// A region to grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// A point of the world; the seed is the nearest voxel.
+    /// A point of the world. The seed is the nearest voxel.
     pub at: DVec3,
     /// The largest difference from the seed's value.
     pub tolerance: f64,
-    /// The neighbours of a voxel.
+    /// The voxels that count as neighbours.
     pub connect: Connectivity,
     /// The change of the memberships.
     pub mode: PaintMode,
@@ -38,7 +38,7 @@ pub struct Growth {
 /// A seed of a watershed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seed {
-    /// A point of the world; the marker is the nearest voxel.
+    /// A point of the world. The marker is the nearest voxel.
     pub at: DVec3,
     /// The change of the memberships in the seed's basin.
     pub mode: PaintMode,
@@ -47,25 +47,25 @@ pub struct Seed {
 /// The extent of a stroke.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Painted {
-    /// Shown voxels that the stroke covers.
+    /// Number of shown voxels that the stroke covers.
     pub voxels: usize,
-    /// Bricks whose memberships changed.
+    /// Number of bricks whose memberships changed.
     pub bricks: usize,
 }
 
-/// A stroke that cannot be made.
+/// Errors of strokes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PaintError {
-    /// The seed with this place in the list lies outside the volume.
+    /// A seed lies outside the volume. The field is the seed's index.
     #[error("the seed lies outside the volume")]
     Outside(usize),
-    /// The transfer function does not show the voxel of the seed with this place in the list.
+    /// The transfer function does not show a seed's voxel. The field is the seed's index.
     #[error("the transfer function does not show the seed's voxel")]
     Hidden(usize),
-    /// Memory that the budget does not allow.
+    /// The budget does not allow the memory.
     #[error("{0}")]
     NoRoom(NoRoom),
-    /// A volume without gradient.
+    /// The volume has no gradient.
     #[error("{0}")]
     Field(FieldError),
 }
@@ -83,7 +83,8 @@ pub struct Painter<'a> {
 }
 
 impl<'a> Painter<'a> {
-    /// Prepares painting onto voxels whose value `is_shown`. Voxels that are not finite in the file are never painted.
+    /// Prepares painting onto voxels with values for which `is_shown` holds. Voxels that are not finite in the file are
+    /// never painted.
     pub fn new(volume: &'a Volume, is_shown: &'a (dyn Fn(f64) -> bool + Sync)) -> Self {
         Self { volume, shown: ShownValues::new(volume, is_shown) }
     }
@@ -91,17 +92,17 @@ impl<'a> Painter<'a> {
     /// Dabs a brush onto a selection of the volume. The brush need not lie in the volume.
     ///
     /// # Errors
-    /// Memory that the budget does not allow.
+    /// The budget does not allow the memory.
     pub fn dab(&self, selection: &mut Selection, dab: &Dab) -> Result<Painted, NoRoom> {
         let grid = self.volume.grid();
         let centre = nearest_voxel(grid.to_index(dab.at));
-        // Half the sides of the box, in index space, about the ball or the box of the world.
+        // Half the sides of the box about the brush, in index space. The brush is a ball or a box of the world.
         let rows = grid.inverse_axes().transpose();
         let reach = [rows.x_axis, rows.y_axis, rows.z_axis].map(|row| match dab.brush {
             Brush::Gaussian | Brush::Ball => row.length(),
             Brush::Box => row.abs().element_sum(),
         });
-        // A margin for rounding: the brush itself decides at its border.
+        // A margin for rounding. The membership decides at the brush's border.
         let reach = DVec3::from_array(reach) * dab.radius * (1.0 + 1e-9);
         let last = DVec3::from_array(grid.dims().map(|n| (n - 1) as f64));
         let (lo, hi) = ((centre - reach).ceil().max(DVec3::ZERO), (centre + reach).floor().min(last));
@@ -126,7 +127,7 @@ impl<'a> Painter<'a> {
     /// Paints a region that grows from a seed over shown voxels of similar value.
     ///
     /// # Errors
-    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    /// A seed is hidden or lies outside the volume, or the budget does not allow the memory.
     pub fn grow(&self, selection: &mut Selection, growth: &Growth) -> Result<Painted, PaintError> {
         let seed = self.seed(growth.at, 0)?;
         let (dims, value) = (self.volume.dims(), self.volume.value(seed));
@@ -139,14 +140,15 @@ impl<'a> Painter<'a> {
         Ok(Painted { voxels: region.count(), bricks })
     }
 
-    /// Paints the basins of seeds. The relief is the gradient magnitude by central differences; hidden voxels are walls.
+    /// Paints the basins of seeds. The relief is the gradient magnitude by central differences. Hidden voxels are
+    /// walls.
     ///
     /// # Errors
-    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    /// A seed is hidden or lies outside the volume, or the budget does not allow the memory.
     pub fn watershed(&self, selection: &mut Selection, seeds: &[Seed]) -> Result<Painted, PaintError> {
         let field = Field::<f64>::new(self.volume, Reconstruction::default(), Rung::Gradient);
         let field = field.map_err(PaintError::Field)?;
-        // Squares have the order of magnitudes.
+        // Squares have the same order as magnitudes.
         self.watershed_over(selection, seeds, &mut |voxel| {
             let gradient = field.voxel_gradient(voxel);
             gradient.dot(gradient)
@@ -156,7 +158,7 @@ impl<'a> Painter<'a> {
     /// Paints the basins of seeds over a relief. Hidden voxels are walls.
     ///
     /// # Errors
-    /// A seed that is hidden or lies outside the volume, or memory that the budget does not allow.
+    /// A seed is hidden or lies outside the volume, or the budget does not allow the memory.
     fn watershed_over(
         &self,
         selection: &mut Selection,
@@ -195,7 +197,7 @@ impl<'a> Painter<'a> {
     }
 }
 
-/// The nearest voxel of a position; of two at equal distance that with the lower index.
+/// The voxel nearest to a position. Of two at equal distance, it is the one with the lower index.
 fn nearest_voxel(index: DVec3) -> DVec3 {
     // The sum turns −0 into 0.
     (index - 0.5).ceil() + 0.0

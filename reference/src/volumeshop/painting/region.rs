@@ -1,4 +1,4 @@
-//! Region growing: the connected voxels about a seed that are accepted ([VS-6]).
+//! Region growing: the accepted voxels that are connected with a seed ([VS-6]).
 
 use drypoint_scene::memory::{self, NoRoom};
 use drypoint_scene::tables::Connectivity;
@@ -7,7 +7,7 @@ use drypoint_scene::tables::Connectivity;
 #[derive(Clone, Debug)]
 pub struct VoxelSet {
     dims: [usize; 3],
-    /// One bit a voxel, x fastest.
+    /// One bit for each voxel, x fastest.
     bits: Vec<u64>,
     bounds: [[usize; 3]; 2],
     count: usize,
@@ -38,7 +38,7 @@ impl VoxelSet {
         self.has_index(self.index(voxel))
     }
 
-    /// The first voxel of the box about the region, and the voxel behind its last.
+    /// The first voxel of the box about the region, and the voxel after its last.
     pub fn bounds(&self) -> [[usize; 3]; 2] {
         self.bounds
     }
@@ -49,7 +49,7 @@ impl VoxelSet {
     }
 }
 
-/// The steps to the neighbours of a voxel.
+/// The offsets to the neighbours of a voxel.
 pub(super) fn steps(connect: Connectivity) -> Vec<[isize; 3]> {
     let most = match connect {
         Connectivity::Faces => 1,
@@ -70,10 +70,10 @@ pub(super) fn neighbour(dims: [usize; 3], voxel: [usize; 3], step: [isize; 3]) -
     Some(next)
 }
 
-/// The seed, and all accepted voxels that accepted voxels connect with it.
+/// The seed, and all accepted voxels that are connected with it through accepted voxels.
 ///
 /// # Errors
-/// Memory that the budget does not allow.
+/// The budget does not allow the memory.
 pub fn grown(
     dims: [usize; 3],
     seed: [usize; 3],
@@ -81,7 +81,7 @@ pub fn grown(
     accepts: impl Fn([usize; 3]) -> bool,
 ) -> Result<VoxelSet, NoRoom> {
     let voxels: usize = dims.iter().product();
-    // A bit for each voxel, and at most one place in the list for it.
+    // A bit for each voxel, and at most one entry in the list for it.
     memory::room_for(voxels as u64, size_of::<usize>() as u64 + 1)?;
     let mut region =
         VoxelSet { dims, bits: vec![0; voxels.div_ceil(64)], bounds: [seed, seed.map(|i| i + 1)], count: 0 };

@@ -63,7 +63,7 @@ pub struct Goal {
     pub along: DVec3,
     /// The largest distance at which a curve counts as arrived.
     pub within: f64,
-    /// The least length of the curve. A curve that begins at its goal must come back, and is not there at once.
+    /// The least length of the curve. With it, a curve that begins at its goal does not count as arrived at once.
     pub after: f64,
 }
 
@@ -98,7 +98,7 @@ pub enum EndCause<C> {
     Field(C),
     /// The field's lines turn within the smallest step.
     Turns,
-    /// The tolerance asks for a step below the smallest one.
+    /// The tolerance requires a step below the smallest one.
     Step,
     /// The curve is at its goal, and its last segment ends there.
     Closed,
