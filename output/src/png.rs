@@ -94,7 +94,7 @@ pub fn write_rgba_table(size: [usize; 2], values: &[[f64; 4]], bits: u8, path: &
     atomic::write(path, &encode_numbers(size, values.as_flattened(), bits, png::ColorType::Rgba)?)
 }
 
-/// Returns a PNG whose codes are proportional to numbers in [0, 1]. The numbers of a pixel follow each other.
+/// Returns a PNG whose codes are proportional to numbers in [0, 1], pixel by pixel.
 fn encode_numbers(size: [usize; 2], values: &[f64], bits: u8, color: png::ColorType) -> Result<Vec<u8>, OutputError> {
     let pixels = size[0].checked_mul(size[1]);
     if pixels.and_then(|pixels| pixels.checked_mul(color.samples())) != Some(values.len()) {

@@ -28,8 +28,8 @@ impl CoverageMask {
         Some(Self { mask })
     }
 
-    /// Draws lines with a round pen. Each line comes with a flag that says whether the line is closed. Lines of one
-    /// call cover once where they cross. Successive calls add as c + d − cd.
+    /// Draws lines with a round pen. The flag of a line says whether it is closed. Lines of one call cover once where
+    /// they cross. Successive calls add as c + d − cd.
     pub(crate) fn draw<L: Iterator<Item = [f64; 2]>>(&mut self, lines: impl Iterator<Item = (L, bool)>, pen: f64) {
         // All strokes are one outline, filled by the nonzero rule, so that crossings do not darken.
         if let Some(outline) = outline(lines, pen) {

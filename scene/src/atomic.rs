@@ -67,8 +67,7 @@ pub fn remedy(error: &io::Error) -> &'static str {
     }
 }
 
-/// Removes the files that interrupted writes have left beside their targets. The handler of an interrupt calls this
-/// function.
+/// Removes the files that interrupted writes have left beside their targets, for the handler of an interrupt.
 pub fn remove_unfinished() {
     for path in std::mem::take(&mut *unfinished()) {
         // The process is about to end: there is nobody to tell that a file could not be removed.

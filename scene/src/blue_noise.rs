@@ -66,7 +66,7 @@ pub fn void_and_cluster() -> Vec<u16> {
 
 /// The weights that a set voxel adds to those around it, by their offsets on the torus.
 fn kernel() -> Vec<f64> {
-    /// The deviation in voxels. Ulichney's value of 1.5, for a plane, leaves cuts through a tone of a tenth uneven.
+    /// The deviation in voxels. Ulichney's 1.5, for a plane, leaves cuts of a tone of a tenth uneven.
     const SIGMA: f64 = 2.0;
     let squared = |d: usize| (d.min(SIDE - d) * d.min(SIDE - d)) as f64;
     let gaussian = |r2: f64| exp(-r2 / (2.0 * SIGMA * SIGMA));
@@ -91,7 +91,7 @@ struct EnergyField {
 }
 
 impl EnergyField {
-    /// Sets a voxel that is not set, or unsets a set one.
+    /// Sets or unsets a voxel.
     fn flip(&mut self, i: usize) {
         let sign = if self.is_set[i] { -1.0 } else { 1.0 };
         self.is_set[i] = !self.is_set[i];

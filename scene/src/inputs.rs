@@ -49,7 +49,7 @@ impl<'a> Inputs<'a> {
 }
 
 impl<'a> ObjectData<'a> {
-    /// Returns the data of a volume whose function and material name no further data.
+    /// A volume whose function and material name no further data.
     pub fn of(volume: &'a Volume) -> Self {
         Self { volume, labels: None, further: [None, None], styles: &[] }
     }

@@ -3,8 +3,8 @@
 /// The most pixels along a side.
 pub const MOST_SIDE: usize = 4096;
 
-/// A picture over two values: its columns, from the left, stand for the value at p, and its rows, from the bottom, for
-/// the value at T p.
+/// A picture over two values. Columns, from the left, stand for the value at p. Rows, from the bottom, stand for the
+/// value at T p.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntersectionPicture {
     /// Pixels across and down.
@@ -16,8 +16,8 @@ pub struct IntersectionPicture {
 }
 
 impl IntersectionPicture {
-    /// Returns colour and opacity at shares of both ranges, interpolated bilinearly between pixel centres. The ends of
-    /// a range lie at the centres of the first and the last pixel. Shares are clamped to [0, 1].
+    /// Colour and opacity at shares of both ranges, clamped to [0, 1], bilinear between pixel centres. The ends of a
+    /// range lie at the centres of the first and the last pixel.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 4] {
         let [width, height] = self.size;
         let place = |share: f64, n: usize| {

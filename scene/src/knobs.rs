@@ -1,7 +1,7 @@
 //! The knobs of a scene: keys that trade accuracy for time ([COST-1]).
 //!
-//! A knob is declared in one line of its table's rules (`plan::rules`): its settings from coarse to fine in a given
-//! scene, and the picture that the settings converge to. [`knobs`] collects all knobs from the rules.
+//! A knob is declared in one line of its table's rules (`plan::rules`): the settings from coarse to fine in a scene,
+//! and their limit. [`knobs`] collects all knobs.
 //!
 //! ```
 //! use drypoint_scene::file::{Overrides, parse};
@@ -29,7 +29,7 @@ use std::path::Path;
 /// A knob that a scene uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
-    /// The knob's key in the scene, such as `sampling.step`, or `pen[0].width` for an item of a list of tables.
+    /// The knob's key, such as `sampling.step`, or `pen[0].width` in an item of a list.
     pub key: String,
     /// The settings from coarse to fine, as `--set` takes them; at least two.
     pub settings: &'static [&'static str],

@@ -131,8 +131,7 @@ impl Grid {
         [self.axes.x_axis.length(), self.axes.y_axis.length(), self.axes.z_axis.length()]
     }
 
-    /// The length of one voxel: the smallest spacing. Axes of length 1 count only if all axes have length 1
-    /// ([SPACE-5]).
+    /// One voxel: the smallest spacing. Axes of length 1 count only if there is no other ([SPACE-5]).
     #[inline]
     pub fn voxel(&self) -> f64 {
         let spacing = self.spacing();

@@ -155,8 +155,8 @@ impl Tone {
         along(&self.rows, wanted, 0)
     }
 
-    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). If several
-    /// values print it, the result is the least. If the pen cannot print it, the result is the last row's.
+    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). The result is
+    /// the least of several, and the last row's if the pen prints less.
     pub fn asked(&self, coverage: f64) -> f64 {
         along(&self.rows, coverage, 1)
     }
@@ -176,8 +176,8 @@ impl Tone {
 }
 
 impl Tone {
-    /// The coverage of dots with `ink` = λa in several layers: 1 − (1 − c)^layers, c the coverage of one layer. Dots of
-    /// one layer are evenly spread, and layers are independent.
+    /// The coverage of evenly spread dots with `ink` = λa in independent layers: 1 − (1 − c)^layers, c the coverage of
+    /// one layer.
     pub fn coverage_of_layers(&self, ink: f64, layers: f64) -> f64 {
         1.0 - pow(1.0 - self.coverage(ink / layers), layers)
     }

@@ -16,8 +16,8 @@ const COLORS: usize = 255;
 /// The label of a comment extension.
 const COMMENT: AnyExtension = AnyExtension(0xfe);
 
-/// An animated GIF in straight sRGB. A frame of at most 255 colours keeps its colours. Pixels of any other frame get
-/// the nearest of 255 mean colours. A pixel is transparent where α is below ½, else opaque.
+/// An animated GIF in straight sRGB. A frame keeps up to 255 colours. If it has more, pixels get the nearest of 255
+/// mean colours. A pixel is transparent where α is below ½, else opaque.
 pub struct GifAnimation<W: Write> {
     encoder: Encoder<W>,
     size: [usize; 2],

@@ -80,9 +80,8 @@ impl From<&Picture> for Image {
 /// the second and further parts get the part's name as prefix.
 ///
 /// # Errors
-/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], [`OutputError::TooLarge`] for a
-/// header that claims more than the file holds, and [`OutputError::NoRoom`] for pixels that do not fit. The last two
-/// are found before anything is allocated.
+/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], [`OutputError::TooLarge`],
+/// [`OutputError::NoRoom`]. The last two are found before anything is allocated.
 pub fn read_image(path: &Path) -> Result<Image, OutputError> {
     decode(&bytes(&Disk, path)?, path)
 }

@@ -12,7 +12,7 @@ const CHORD: f64 = 0.05;
 /// cos 60°: a sharper bend is a corner.
 const SHARP: f64 = 0.5;
 
-/// Points nearer than this, in mm, count as one point. Between such points, the rounding to 0.001 mm would make bends.
+/// Points nearer than this, in mm, count as one: the rounding to 0.001 mm would make bends.
 const NEAR: f64 = 0.01;
 
 /// A segment of a path, from the end of the one before.

@@ -86,8 +86,7 @@ impl ClipPlanes {
         ClippedParts::Parts(parts)
     }
 
-    /// Returns the kept part of a segment in world space, as shares from 0 to 1. None if nothing is kept, or only the
-    /// point at a cut.
+    /// The kept shares of a segment in world space; none if nothing is kept, or only the point at a cut.
     pub fn segment(&self, ends: [DVec3; 2]) -> Option<[f64; 2]> {
         let mut kept = [0.0f64, 1.0f64];
         for plane in &self.0 {

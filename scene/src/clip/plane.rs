@@ -54,15 +54,13 @@ impl ClipPlane {
         Self { index_normal: grid.axes().transpose() * self.normal, index_offset, ..self.clone() }
     }
 
-    /// Returns m·p − m·q for a place p and the places q on the plane, in index space. Places with a result above 0 are
-    /// cut away.
+    /// m·p − m·q for a place p and the places q on the plane, in index space. It is above 0 on the cut side.
     #[inline]
     pub fn beyond(&self, index: DVec3) -> f64 {
         dot(self.index_normal, index) - self.index_offset
     }
 
-    /// Returns the signed distance of a place from the plane, in world units. Places with a result above 0 are cut
-    /// away.
+    /// The signed distance of a place from the plane, in world units. It is above 0 on the cut side.
     #[inline]
     pub fn beyond_in_world(&self, world: DVec3) -> f64 {
         dot(self.normal, world) - self.offset

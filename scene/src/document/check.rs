@@ -1,4 +1,4 @@
-//! The walk over a document, which checks it against the description of its tables and collects every fault ([SCN-4]).
+//! The walk over a document that checks it against the description of its tables ([SCN-4]).
 
 use super::describe::{Head, Key, Later, Shape, Table};
 use super::fault::{Fault, Problem};
@@ -171,8 +171,7 @@ impl Check {
         });
     }
 
-    /// The full key, from the top, of a key in the present table or in a table inside it, and the key's place or else
-    /// the table's.
+    /// The full key of [`Check::inner`], and the key's place or else the table's.
     fn inner_place(&self, tail: &str) -> (String, Place) {
         let key = self.inner(tail);
         let place = self.given.place(&key).or_else(|| self.given.place(&self.path)).cloned();

@@ -74,8 +74,7 @@ impl<'a> Lines<'a> {
         self.before[block] + characters(&self.text.as_bytes()[block * BLOCK..byte])
     }
 
-    /// The place of a byte. A byte inside a character has the place of the character, and a byte past the end the place
-    /// of the end.
+    /// The place of a byte. Bytes inside a character have its place, and bytes past the end the place of the end.
     pub(crate) fn place(&self, byte: usize) -> Place {
         let byte = (0..=byte.min(self.text.len())).rev().find(|&b| self.text.is_char_boundary(b)).unwrap_or(0);
         let line = self.starts.partition_point(|&start| start <= byte);
@@ -164,7 +163,7 @@ impl Given {
     }
 }
 
-/// The rest of a key behind a table's key, if the key is the table or lies in it; none for any other key.
+/// The rest of a key behind a table's key; none for a key outside the table.
 fn inside<'a>(key: &'a str, table: &str) -> Option<&'a str> {
     key.strip_prefix(table).filter(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }

@@ -65,8 +65,8 @@ pub fn reference_markdown() -> String {
 }
 
 /// Reads a scene from the text of a file. Relative paths are resolved against the folder of `file_name`, those of
-/// overrides against the working directory. The files that the scene names are not opened. Only the folder of a theme
-/// is listed, for the names of the theme's styles.
+/// overrides against the working directory. No file that the scene names is opened; only a theme's folder is listed,
+/// for the names of styles.
 ///
 /// # Errors
 /// Every fault of the text and of the overrides, with its place ([SCN-4]).

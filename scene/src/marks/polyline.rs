@@ -14,7 +14,7 @@ pub struct Polyline {
     pub closed: bool,
 }
 
-/// A vertex of a line: the numbers of a dot, and the vertex's share of the line's length.
+/// A vertex of a line: a dot's numbers, and the share of the line up to the vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// The place on the page, in mm, y down.
@@ -25,7 +25,7 @@ pub struct Vertex {
     pub radius: f64,
     /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,
-    /// The share of the whole line up to the vertex, from 0 to 1. A part that was cut out of a line keeps its shares.
+    /// The share of the whole line up to the vertex, from 0 to 1. Clipping keeps shares.
     pub t: f64,
     /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,

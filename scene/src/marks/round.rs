@@ -10,8 +10,8 @@ const PLACE: f64 = 1000.0;
 /// Steps of 1 for opacities: sixteenths.
 pub(super) const OPACITY: f64 = 16.0;
 
-/// Returns the multiple of 1/`steps` nearest to `x`. Ties go to the even multiple. Since the result is an integer
-/// divided by an integer, it equals the number that its decimals are read as.
+/// The multiple of 1/`steps` nearest to `x`; ties go to the even one. Dividing an integer by an integer gives the
+/// number that the decimals are read as.
 pub(super) fn nearest(x: f64, steps: f64) -> f64 {
     (x * steps).round_ties_even() / steps
 }

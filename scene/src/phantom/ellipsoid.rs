@@ -9,8 +9,8 @@
 //! u is 1 on the surface and 0 on the medial surface, the part of the plane across c where the nearest point is not
 //! unique; on it, f has no derivative. Elsewhere derivatives are exact: two of Newton's steps on jets.
 //!
-//! The surface has the curvatures a/b² and a/c² at the end of the axis a, and likewise at the ends of the other axes.
-//! At depth d, the curvatures are κ / (1 − d κ), κ those of the surface at the nearest point.
+//! The surface has the curvatures a/b² and a/c² at the end of the axis a, and likewise for the other axes. At depth d
+//! they are κ / (1 − d κ), κ those at the nearest point.
 
 use super::jet::{Scalar, length};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

@@ -98,8 +98,8 @@ impl Asks<'_> {
         self.needs.iter().find(|need| need.quantity == quantity)
     }
 
-    /// Adds the quantities that needed quantities are made of, at the same samples. The effect that needed a quantity
-    /// first stands for the addition, too.
+    /// Adds the quantities that needed quantities are made of, for the same samples and the first effect that needs
+    /// them.
     pub(super) fn close(&mut self) {
         const ALL: [Samples; 3] = [Samples::Visible, Samples::First, Samples::Seeds];
         for (quantity, samples) in Quantity::ALL.into_iter().rev().flat_map(|q| ALL.map(|samples| (q, samples))) {

@@ -1,7 +1,7 @@
 //! The quantities of a transfer function: the value, or two quantities ([STF-4], 4.2).
 //!
-//! The list of quantities is open. A new quantity takes a variant of [`Axis`], a line in the list of names or in the
-//! table of quantities with a parameter, and a measure in the renderer.
+//! The list of quantities is open. A new one takes a variant of [`Axis`], a line in the list of names or in the table
+//! of quantities with a parameter, and a measure.
 
 use crate::document::Problem;
 use crate::document::check::Check;

@@ -4,8 +4,8 @@
 use super::Rows;
 use crate::tables::Axis;
 
-/// Returns the places and opacities of the nodes of a function over the value. It is above 0 at least at each value
-/// where the function over two quantities can be above 0. `rounded` converts places to the number type of the samples.
+/// Returns the places and opacities of the nodes of a function over the value. It is above 0 at least wherever the
+/// function over two quantities can be above 0. `rounded` converts places to the number type of the samples.
 ///
 /// The function gives the values that rows leave clear exactly, since nodes and steps of every row are its own. If
 /// neither quantity is the value, the result is 1, or 0 if nothing is visible at all.

@@ -11,8 +11,7 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// The nodes of a transfer function ([STF-3]). For a function over two quantities, they are the nodes of all rows, row
-/// after row ([STF-4]).
+/// The nodes of a transfer function ([STF-3]). Over two quantities, nodes stand row after row ([STF-4]).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nodes<C> {
     /// The value, or the first of the two quantities, at each node; in non-decreasing order within each row.
@@ -202,15 +201,15 @@ impl Function {
 }
 
 impl Rows {
-    /// The range of nodes of each row, where the function has `nodes` nodes.
+    /// The range of each row's nodes, of `nodes` in all.
     pub fn spans(&self, nodes: usize) -> impl Iterator<Item = Range<usize>> {
         let ends = self.first.iter().skip(1).copied().chain([nodes]);
         self.first.iter().copied().zip(ends).map(|(first, end)| first..end)
     }
 }
 
-/// The order in which rows are kept, and the position of each row in that order. Rows stay as written, but rows of
-/// labels are sorted by id. A row that several labels share is repeated for each label.
+/// The order and positions of rows: as written, but rows of labels are sorted by id. A row that several labels share is
+/// repeated for each.
 fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
     // Where, which row, and whether it says so by a name.
     let (mut places, mut wrong): (Vec<(f64, usize, bool)>, _) = (Vec::with_capacity(rows.len()), Vec::new());
@@ -239,9 +238,8 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
-/// On a closed range, the opacity is 0 throughout exactly if two kinds of nodes have opacity 0: both nodes of every
-/// segment that overlaps the range, and every node in the range. All nodes at one value count. Rounding keeps nodes in
-/// order.
+/// It is 0 on the whole closed range exactly if these nodes have opacity 0: every node in the range, and both ends of
+/// every segment that overlaps it. All nodes at one value count. Rounding keeps nodes in order.
 pub fn can_be_above_zero(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };

@@ -37,7 +37,7 @@ impl Selection {
         Ok(Self { grid: volume.grid().clone(), anatomy: volume.anatomy(), memberships })
     }
 
-    /// Selects the voxels that have one of some labels. Their membership is 1, that of other voxels 0.
+    /// The voxels with one of some labels have membership 1, all others 0.
     ///
     /// # Errors
     /// Memory that the budget does not allow.

@@ -154,7 +154,7 @@ impl<R: RowReader> ListReader<'_, R> {
         self.fault(name, fault)
     }
 
-    /// Returns the column's number if it is finite and `may` holds for it.
+    /// Returns the column's number if it is finite and `may` accepts it.
     fn number(&self, column: ListColumn, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
         let number = self.rows.number(column);
         number.filter(|&n| n.is_finite() && may(n)).ok_or_else(|| self.wrong(column, expected))

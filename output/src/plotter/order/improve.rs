@@ -4,15 +4,13 @@ use super::neighbours::Neighbours;
 use super::tour::Tour;
 use std::collections::VecDeque;
 
-/// Longest run of strokes that a move may reverse or pass over. Longer runs gain nothing more, and take time in
-/// proportion to their length.
+/// Longest run of strokes that a move may reverse or pass over. Longer runs take more time and gain nothing.
 const RUN: usize = 50_000;
 
 /// Most strokes that an Or-opt move takes along.
 const TAKEN: usize = 3;
 
-/// Limit, for each stroke, of the number of changed positions in all moves together. Random pages need far fewer; only
-/// a contrived list reaches the limit.
+/// Most positions that all moves may change, for each stroke. Only contrived lists reach the limit.
 const BUDGET: usize = 10_000;
 
 /// Least gain of a move, in mm: more than rounding can make.

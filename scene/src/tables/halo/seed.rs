@@ -95,8 +95,8 @@ choices! {
 }
 
 impl Seeding {
-    /// Whether the transfer function's opacity seeds the halo. It does if the scene says so, or if the scene has none
-    /// of the four factors.
+    /// Whether the transfer function's opacity seeds the halo: as the scene says, or because it has none of the four
+    /// factors.
     pub fn is_by_opacity(&self) -> bool {
         match &self.value {
             Some(value) => *value == SeedValue::Opacity,

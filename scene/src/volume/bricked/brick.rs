@@ -81,7 +81,7 @@ pub(super) fn same<V: Voxel>(a: &[V], b: &[V]) -> bool {
     a.iter().zip(b).all(|(&a, &b)| is_same(a, b))
 }
 
-/// Hashes the voxels of a brick in four chains side by side, since each step of a chain waits for the previous one.
+/// Hashes the voxels of a brick in four chains, since each step waits for the previous one.
 pub(super) fn hash<V: Voxel>(voxels: &[V]) -> u64 {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
     let mix = |hash: u64, bits: u64| (hash.rotate_left(5) ^ bits).wrapping_mul(ODD);

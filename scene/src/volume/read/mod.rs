@@ -44,8 +44,8 @@ pub fn is_volume(path: &Path) -> bool {
 /// coordinates are the file's own ([SPACE-2]).
 ///
 /// # Errors
-/// A file that cannot be opened, does not have the format of its suffix, or has another length than its header says;
-/// axes that do not span space; more than one number a voxel; or no finite value. See [`Fault`].
+/// A file that cannot be opened, or does not match its suffix or its header's claims. Axes that do not span space,
+/// several numbers a voxel, or no finite value. See [`Fault`].
 pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
     read_part(&Disk, path, raw, &all_voxels)
 }
