@@ -1,7 +1,7 @@
 //! Exact coverage of pixels by discs.
 //!
-//! Rasterizers that count sample points lose a tenth to a half of the ink of a dot below a pixel ([STIP-16]). A closed
-//! form loses none.
+//! Rasterizers that count sample points lose a tenth to a half of the ink of a dot smaller than a pixel ([STIP-16]).
+//! The closed form loses no ink.
 
 use drypoint_scene::math::atan2;
 use std::f64::consts::PI;

@@ -17,7 +17,7 @@ pub enum OutputError {
         /// The operating system's error.
         source: std::io::Error,
     },
-    /// The first bytes are those of no format that is read here.
+    /// The first bytes match no format that can be read.
     #[error("{}: neither a PNG nor an EXR file: it begins with the bytes {found:02x?}", path.display())]
     UnknownFormat {
         /// The file.

@@ -3,7 +3,7 @@
 use crate::OutputError;
 use drypoint_scene::marks::{Layer, Marks};
 
-/// Checks that all numbers of a page and its marks are finite. No format has a number for the others.
+/// Checks that all numbers of a page and its marks are finite. Files of marks hold finite numbers only.
 pub(crate) fn check_finite(marks: &Marks) -> Result<(), OutputError> {
     let page = &marks.page;
     let refuse = |what: String| Err(OutputError::NotFinite { what });

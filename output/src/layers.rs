@@ -24,7 +24,7 @@ pub(crate) fn check(picture: &Picture, layer: &Layer) -> Result<(), OutputError>
     }
 }
 
-/// Returns a side as u32, in the range 1 … 2³¹ − 1 that both formats share.
+/// Returns a side as u32, in the range 1 … 2³¹ − 1 that PNG and EXR share.
 pub(crate) fn side(pixels: usize, kind: LayerKind) -> Result<u32, OutputError> {
     match u32::try_from(pixels) {
         Ok(n) if n > 0 && n < 1 << 31 => Ok(n),

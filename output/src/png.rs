@@ -34,8 +34,8 @@ pub fn encode_png(picture: &Picture, bits: u8, provenance: &Provenance) -> Resul
     Ok(bytes)
 }
 
-/// Returns the layer `beauty` as a PNG has it before compression: RGBA in straight sRGB, row by row from the top. Of 16
-/// bits the highest byte comes first.
+/// Returns the layer `beauty` as a PNG's bytes before compression: RGBA in straight sRGB, row by row from the top. The
+/// higher byte of a 16-bit code comes first.
 ///
 /// # Errors
 /// Same errors as [`encode_png`].
@@ -50,7 +50,7 @@ pub fn rgba_codes(picture: &Picture, bits: u8) -> Result<Vec<u8>, OutputError> {
     }
 }
 
-/// Returns what stands before the pixels: size and depth, the colour space and the provenance.
+/// Returns the chunks before the pixels: size and depth, the colour space and the provenance.
 pub(crate) fn info(size: [usize; 2], bits: u8, provenance: &Provenance) -> Result<png::Info<'static>, OutputError> {
     let depth = match bits {
         8 => png::BitDepth::Eight,
@@ -67,8 +67,8 @@ pub(crate) fn info(size: [usize; 2], bits: u8, provenance: &Provenance) -> Resul
     Ok(info)
 }
 
-/// Writes numbers in [0, 1] as a grey PNG of 8 or 16 bits: a map that is no colour, so that codes are the numbers and no
-/// chunk names a colour space. Row 0 is the top. The file appears whole or not at all.
+/// Writes numbers in [0, 1] as a grey PNG of 8 or 16 bits. The codes are proportional to the numbers, and no chunk
+/// names a colour space. Row 0 is the top. The file appears whole or not at all.
 ///
 /// # Errors
 /// [`OutputError::Bits`], [`OutputError::Layer`] for numbers that do not fit the size, [`OutputError::Io`].
@@ -84,8 +84,9 @@ pub fn encode_grey_png(size: [usize; 2], values: &[f64], bits: u8) -> Result<Vec
     encode_numbers(size, values, bits, png::ColorType::Grayscale)
 }
 
-/// Writes quadruples of numbers in [0, 1] as an RGBA PNG of 8 or 16 bits: a table that is no colour, so that codes are the
-/// numbers, not premultiplied, and no chunk names a colour space. Row 0 is the top. The file appears whole or not at all.
+/// Writes quadruples of numbers in [0, 1] as an RGBA PNG of 8 or 16 bits. The codes are proportional to the numbers,
+/// which are not premultiplied, and no chunk names a colour space. Row 0 is the top. The file appears whole or not at
+/// all.
 ///
 /// # Errors
 /// [`OutputError::Bits`], [`OutputError::Layer`] for numbers that do not fit the size, [`OutputError::Io`].
@@ -93,7 +94,7 @@ pub fn write_rgba_table(size: [usize; 2], values: &[[f64; 4]], bits: u8, path: &
     atomic::write(path, &encode_numbers(size, values.as_flattened(), bits, png::ColorType::Rgba)?)
 }
 
-/// Returns a PNG whose codes are numbers in [0, 1], a pixel's one after the other.
+/// Returns a PNG whose codes are proportional to numbers in [0, 1], pixel by pixel.
 fn encode_numbers(size: [usize; 2], values: &[f64], bits: u8, color: png::ColorType) -> Result<Vec<u8>, OutputError> {
     let pixels = size[0].checked_mul(size[1]);
     if pixels.and_then(|pixels| pixels.checked_mul(color.samples())) != Some(values.len()) {

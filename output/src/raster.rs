@@ -6,8 +6,8 @@ use tiny_skia::{FillRule, LineCap, LineJoin, Mask, Path, PathBuilder, PathStroke
 /// pixels across.
 ///
 /// Points are in pixels, y down, and the first pixel's centre is (½, ½). A polyline of two equal points is a dot.
-/// Overlapping strokes cover once. Steps are 1/255. The caller checks the memory budget. More than 2³² pixels on a side
-/// stay blank.
+/// Overlapping strokes cover once. Steps are 1/255. The caller checks the memory budget. A picture with a side above
+/// 2³² pixels stays blank.
 pub fn coverage(width: usize, height: usize, polylines: &[Vec<[f64; 2]>], pen: f64) -> Vec<f64> {
     let Some(mut cover) = CoverageMask::new(width, height) else {
         return vec![0.0; width * height];
@@ -28,8 +28,8 @@ impl CoverageMask {
         Some(Self { mask })
     }
 
-    /// Draws lines with a round pen; each comes with whether it is closed. Lines of one call cover once where they
-    /// cross. Successive calls add as c + d − cd.
+    /// Draws lines with a round pen. The flag of a line says whether it is closed. Lines of one call cover once where
+    /// they cross. Successive calls add as c + d − cd.
     pub(crate) fn draw<L: Iterator<Item = [f64; 2]>>(&mut self, lines: impl Iterator<Item = (L, bool)>, pen: f64) {
         // All strokes are one outline, filled by the nonzero rule, so that crossings do not darken.
         if let Some(outline) = outline(lines, pen) {

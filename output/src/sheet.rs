@@ -32,9 +32,9 @@ const PIXEL: usize = 2 * 4 * 8 + 4;
 /// sRGB code of the labels' ink.
 const INK: f64 = 0.1;
 
-/// Lays out labelled pictures in rows on white. Each is scaled to fit its cell and centred in it, its label below.
-/// Scaling takes the mean over each new pixel's area, in linear premultiplied light. The sheet's only layer is an
-/// opaque `beauty`.
+/// Lays out labelled pictures in rows on white. Each picture is scaled to fit its cell and centred in the cell, with
+/// its label below. Scaling takes the mean over each new pixel's area, in linear premultiplied light. The sheet's only
+/// layer is an opaque `beauty`.
 ///
 /// # Errors
 /// [`OutputError::Sheet`] for no pictures, an empty one, or a sheet that is too large; [`OutputError::NoColor`] with
@@ -123,8 +123,8 @@ fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
     Some(pixels)
 }
 
-/// Divides `from` pixels into `to` equal parts. Returns for each part the first pixel that it touches, and the shares
-/// of the part in this and the following pixels.
+/// Divides `from` pixels into `to` equal parts. Returns, for each part, its first pixel, and the shares of the part in
+/// this pixel and the following ones.
 fn shares(from: usize, to: usize) -> Vec<(usize, Vec<f64>)> {
     // In units of 1/to of a pixel all ends are integers, so no share is lost to rounding.
     (0..to)

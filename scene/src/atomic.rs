@@ -1,7 +1,7 @@
-//! Whole files or none: output goes to a file beside the target, which is renamed over it.
+//! Atomic writes: output goes to a file beside the target, and this file then replaces the target by a rename.
 //!
 //! A reader never sees half a file, and an error leaves the old file as it was. An interrupt handler calls
-//! [`remove_unfinished`] before it ends the process, so that nothing is left beside the target either.
+//! [`remove_unfinished`] before it ends the process, so that no partly written file stays beside the target.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, Permissions};
@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Files that are being written just now.
+/// Files that are being written now.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Numbers the files of this process.
 static COUNT: AtomicU64 = AtomicU64::new(0);
 
-/// Makes `path` hold what `fill` writes, at once or not at all; an existing file is replaced.
+/// Writes the file `path` with the content that `fill` gives, whole or not at all. An existing file is replaced.
 ///
 /// A symbolic link is followed. A file that is replaced keeps its permissions. A target that is no regular file (a
 /// pipe, `/dev/null`) is written directly, since a file must not replace it.
@@ -36,7 +36,7 @@ pub fn write<E: From<io::Error>>(path: &Path, fill: impl FnOnce(&mut dyn Write) 
     Ok(fs::rename(&beside.path, &target)?)
 }
 
-/// Whether [`write()`] could begin now. Asked before long work, so that the work is not done in vain. Leaves no trace.
+/// Checks before long work whether [`write()`] could begin now. Leaves no trace.
 ///
 /// # Errors
 /// See [`write()`].
@@ -67,7 +67,7 @@ pub fn remedy(error: &io::Error) -> &'static str {
     }
 }
 
-/// Removes what interrupted writes have left beside their targets. For the handler of an interrupt.
+/// Removes the files that interrupted writes have left beside their targets, for the handler of an interrupt.
 pub fn remove_unfinished() {
     for path in std::mem::take(&mut *unfinished()) {
         // The process is about to end: there is nobody to tell that a file could not be removed.
@@ -119,7 +119,7 @@ fn may_be_written(path: &Path, permissions: &Permissions) -> io::Result<()> {
     if denied { Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only")) } else { Ok(()) }
 }
 
-/// A file beside the target, of which nothing is left when the write ends in any way.
+/// A file beside the target, which is removed or renamed however the write ends.
 struct PartFile {
     path: PathBuf,
 }

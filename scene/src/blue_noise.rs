@@ -1,8 +1,8 @@
-//! The mask of blue noise by which a fraction becomes whole things spread evenly over voxels ([STIP-5]).
+//! The mask of blue noise that rounds fractions to whole numbers, spread evenly over voxels ([STIP-5]).
 //!
-//! The mask is made by the void-and-cluster method: R. Ulichney, *The void-and-cluster method for dither array generation*,
-//! Human Vision, Visual Processing, and Digital Display IV, SPIE 1913, 1993, here in three dimensions. What is seen of it
-//! are surfaces, so that voids are measured in the planes of two axes as well as in space.
+//! The mask is made by the void-and-cluster method: R. Ulichney, *The void-and-cluster method for dither array
+//! generation*, Human Vision, Visual Processing, and Digital Display IV, SPIE 1913, 1993, here in three dimensions.
+//! Pictures show the mask on surfaces. Voids are therefore measured in the planes of two axes as well as in space.
 
 use crate::math::exp;
 use crate::philox;
@@ -10,13 +10,13 @@ use crate::philox;
 /// Voxels along each axis of the mask, which repeats.
 pub const SIDE: usize = 32;
 
-/// Its voxels.
+/// Number of voxels of the mask.
 const VOXELS: usize = SIDE * SIDE * SIDE;
 
-/// The ranks, x fastest, two bytes each, the lower first: `void_and_cluster` wrote them.
+/// The ranks that [`void_and_cluster`] made, x fastest, two bytes each, the lower byte first.
 static RANKS: &[u8; 2 * VOXELS] = include_bytes!("../../data/blue_noise.bin");
 
-/// u in (0, 1) of a voxel: its rank in the mask, so that ⌊N + u⌋ has the mean N over a period of the mask, to half a rank.
+/// Returns u in (0, 1) of a voxel: (rank + ½)/32³. Over a period of the mask, ⌊N + u⌋ has the mean N, to half a rank.
 #[inline]
 pub fn at(cell: [u32; 3]) -> f64 {
     let [x, y, z] = cell.map(|i| i as usize % SIDE);
@@ -24,7 +24,7 @@ pub fn at(cell: [u32; 3]) -> f64 {
     (f64::from(u16::from_le_bytes([RANKS[i], RANKS[i + 1]])) + 0.5) / VOXELS as f64
 }
 
-/// Makes the mask anew: every rank from 0 to 32³ − 1 once, x fastest.
+/// Computes the mask: every rank from 0 to 32³ − 1 once, x fastest.
 pub fn void_and_cluster() -> Vec<u16> {
     let kernel = kernel();
     let mut field = EnergyField { energy: vec![0.0; VOXELS], is_set: vec![false; VOXELS], kernel };
@@ -66,7 +66,7 @@ pub fn void_and_cluster() -> Vec<u16> {
 
 /// The weights that a set voxel adds to those around it, by their offsets on the torus.
 fn kernel() -> Vec<f64> {
-    /// In voxels. Ulichney's, 1.5 in a plane, leaves cuts of a tone of a tenth uneven.
+    /// The deviation in voxels. Ulichney's 1.5, for a plane, leaves cuts of a tone of a tenth uneven.
     const SIGMA: f64 = 2.0;
     let squared = |d: usize| (d.min(SIDE - d) * d.min(SIDE - d)) as f64;
     let gaussian = |r2: f64| exp(-r2 / (2.0 * SIGMA * SIGMA));
@@ -79,11 +79,11 @@ fn kernel() -> Vec<f64> {
     (0..VOXELS).map(at).collect()
 }
 
-/// How much more a voxel in one of the three planes counts than one beside them. More makes cuts along the axes more even
-/// and oblique ones less; at 1 the worst of the cuts that were tried is best.
+/// Additional weight of a voxel in each of the three planes. A larger weight makes cuts along the axes more even, and
+/// oblique cuts less. At 1 the worst of the cuts that were tried is best.
 const PLANES: f64 = 1.0;
 
-/// Which voxels are set, and how close each is to those.
+/// The set voxels, and each voxel's closeness to them.
 struct EnergyField {
     energy: Vec<f64>,
     is_set: Vec<bool>,
@@ -91,7 +91,7 @@ struct EnergyField {
 }
 
 impl EnergyField {
-    /// Sets a voxel, or takes it back.
+    /// Sets or unsets a voxel.
     fn flip(&mut self, i: usize) {
         let sign = if self.is_set[i] { -1.0 } else { 1.0 };
         self.is_set[i] = !self.is_set[i];
@@ -105,12 +105,12 @@ impl EnergyField {
         }
     }
 
-    /// The voxel that is set and closest to others, the first of equals.
+    /// The set voxel with the highest energy. Ties go to the first one.
     fn tightest_cluster(&self) -> usize {
         self.best(true, |a, b| a > b)
     }
 
-    /// The voxel that is not set and farthest from all, the first of equals.
+    /// The unset voxel with the lowest energy. Ties go to the first one.
     fn largest_void(&self) -> usize {
         self.best(false, |a, b| a < b)
     }

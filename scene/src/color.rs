@@ -2,7 +2,7 @@
 
 use crate::math;
 
-/// Linear red, green, blue and opacity; straight or premultiplied as the owner says.
+/// Linear red, green, blue and opacity. The owner's documentation says whether they are straight or premultiplied.
 pub type Rgba = [f64; 4];
 
 /// Linear red, green and blue.
@@ -18,7 +18,7 @@ pub fn linear_to_srgb(c: f64) -> f64 {
     if c <= 0.0031308 { 12.92 * c } else { 1.055 * math::pow(c, 1.0 / 2.4) - 0.055 }
 }
 
-/// L, a and b of OKLab (Ottosson 2020) of a linear sRGB colour: equal distances look equally far.
+/// Converts a linear sRGB colour to L, a and b of OKLab (Ottosson 2020), where equal distances look alike.
 pub fn linear_to_oklab([r, g, b]: [f64; 3]) -> [f64; 3] {
     let cone = [
         0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,

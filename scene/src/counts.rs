@@ -32,9 +32,9 @@ pub struct Counts {
     pub points: u64,
     /// Connected parts of the volume ([VOL-2]).
     pub parts: u64,
-    /// Those of them that are kept.
+    /// Connected parts that are kept.
     pub parts_kept: u64,
-    /// Voxels of each part, the largest first, of a hundred parts at most.
+    /// Voxels of each of at most a hundred parts, the largest first.
     pub part_sizes: Vec<u64>,
     /// Strokes.
     pub strokes: u64,
@@ -51,8 +51,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Adds the counts of another part of the same picture. Sums of integers do not depend on their order, so neither
-    /// threads nor tiles show.
+    /// Adds the counts of another part of the same picture. Sums of integers do not depend on their order, so counts do
+    /// not depend on threads or tiles.
     pub fn add(&mut self, other: &Self) {
         self.samples += other.samples;
         self.gradients += other.gradients;
@@ -85,7 +85,7 @@ impl Counts {
         }
     }
 
-    /// Adds the counts of a further frame, whose buffers take the place of the last one's: of each the larger is kept.
+    /// Adds the counts of a further frame. Frames share their buffers, so that the larger size of each buffer is kept.
     pub fn add_frame(&mut self, frame: &Self) {
         let mut bytes = std::mem::take(&mut self.bytes);
         for (key, n) in &frame.bytes {

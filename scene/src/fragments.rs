@@ -2,14 +2,14 @@
 
 use crate::color::Rgb;
 
-/// The part of a line in the share of a pixel that one ray stands for.
+/// The part of a line in the part of a pixel that one ray stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fragment {
     /// Eye depth.
     pub depth: f64,
     /// The colour: linear, straight.
     pub rgb: Rgb,
-    /// The share that is covered, times the line's opacity, in (0, 1].
+    /// The covered share times the line's opacity, in (0, 1].
     pub opacity: f64,
 }
 

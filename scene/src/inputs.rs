@@ -15,10 +15,10 @@ pub struct Inputs<'a> {
     /// The data of the other objects, in their order.
     pub parts: Vec<ObjectData<'a>>,
     /// The memberships of each of [`Combination::selections`](crate::shot::Combination::selections) that is
-    /// [`Voxels`](crate::shot::Membership::Voxels).
+    /// [`Voxels`](crate::shot::Membership::Voxels); none for the others.
     pub selections: Vec<Option<&'a Selection>>,
-    /// The picture of each of [`Combination::intersections`](crate::shot::Combination::intersections) that is coloured by a
-    /// picture.
+    /// The picture of each of [`Combination::intersections`](crate::shot::Combination::intersections); none if the
+    /// intersection has no picture.
     pub pictures: Vec<Option<&'a IntersectionPicture>>,
     /// The meshes, in the order of the shot's, in the world ([VS-12]).
     pub meshes: &'a [TriangleMesh],
@@ -31,9 +31,10 @@ pub struct Inputs<'a> {
 pub struct ObjectData<'a> {
     /// The volume.
     pub volume: &'a Volume,
-    /// The labels beside the volume, where something reads them ([STF-13]).
+    /// The labels beside the volume, if the shot reads them ([STF-13]).
     pub labels: Option<&'a LabelVolume>,
-    /// The further volumes that the function is over, one for each of its quantities that is one ([STF-4]).
+    /// The further volume for each of the function's two quantities; none if that quantity is no further volume
+    /// ([STF-4]).
     pub further: [Option<&'a Volume>; 2],
     /// The styles that the function names, in the order of [`Function::Style::names`](crate::transfer::Function::Style::names),
     /// then those that caps name, in the order of [`Clipping::styles`](crate::shot::Clipping::styles).

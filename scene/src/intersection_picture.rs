@@ -1,9 +1,10 @@
 //! The picture of an intersection transfer function ([VS-4]): colours over two values.
 
-/// The most pixels along a side, far more than values that a picture can tell apart.
+/// The most pixels along a side.
 pub const MOST_SIDE: usize = 4096;
 
-/// A picture over the value at p, by columns from the left, and the value at T p, by rows from the bottom.
+/// A picture over two values. Columns, from the left, stand for the value at p. Rows, from the bottom, stand for the
+/// value at T p.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntersectionPicture {
     /// Pixels across and down.
@@ -15,8 +16,8 @@ pub struct IntersectionPicture {
 }
 
 impl IntersectionPicture {
-    /// The colour and the opacity at shares of both ranges: bilinear between the centres of pixels, the ends of a range at the
-    /// centres of the first and the last, clamped.
+    /// Colour and opacity at shares of both ranges, clamped to [0, 1], bilinear between pixel centres. The ends of a
+    /// range lie at the centres of the first and the last pixel.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 4] {
         let [width, height] = self.size;
         let place = |share: f64, n: usize| {

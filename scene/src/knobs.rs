@@ -1,7 +1,7 @@
 //! The knobs of a scene: keys that trade accuracy for time ([COST-1]).
 //!
-//! A knob is declared in one line of its table's rules (`plan::rules`): its settings from coarse to fine, as far as the
-//! scene uses it, and what they converge to. [`knobs`] finds them all there.
+//! A knob is declared in one line of its table's rules (`plan::rules`): the settings from coarse to fine in a scene,
+//! and their limit. [`knobs`] collects all knobs.
 //!
 //! ```
 //! use drypoint_scene::file::{Overrides, parse};
@@ -29,11 +29,11 @@ use std::path::Path;
 /// A knob that a scene uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Knob {
-    /// Its scene key, such as `sampling.step`; in an item of a list of tables `pen[0].width`.
+    /// The knob's key, such as `sampling.step`, or `pen[0].width` in an item of a list.
     pub key: String,
-    /// Its settings from coarse to fine, as `--set` takes them; at least two.
+    /// The settings from coarse to fine, as `--set` takes them; at least two.
     pub settings: &'static [&'static str],
-    /// The picture that they converge to.
+    /// The picture that the settings converge to.
     pub limit: Limit,
 }
 
@@ -43,7 +43,7 @@ impl Knob {
         self.settings.last().copied().unwrap_or_default()
     }
 
-    /// The setting that a scene has, as `--set` takes it; none where the scene has no such table.
+    /// Returns the setting of a scene, as `--set` takes it; none if the scene does not have the knob's table.
     pub fn of(&self, scene: &Scene) -> Option<String> {
         let steps = steps(&self.key).ok()?;
         let (table, inner) = steps.split_first()?;
@@ -61,10 +61,10 @@ impl Knob {
         })
     }
 
-    /// A scene with another setting, and no other difference.
+    /// Returns the scene with another setting, and no other difference.
     ///
     /// # Errors
-    /// A setting that is none of the key's, or that does not go with the rest of the scene.
+    /// A setting that the key does not allow, or that contradicts the rest of the scene.
     pub fn set(&self, scene: &Scene, setting: &str) -> Result<Scene, Faults> {
         let over = [(&*self.key, setting)].into_iter().collect::<Overrides>();
         let set = parse(&write_full(scene), Path::new(""), &over)?;

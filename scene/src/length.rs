@@ -18,12 +18,13 @@ pub enum Length {
 }
 
 impl Length {
-    /// The length in world units, for the two units that have a length in the world; none for the others.
+    /// Returns a length of [`World`](Self::World) or [`Voxels`](Self::Voxels) in world units; none for lengths on the
+    /// page.
     pub fn world(self, grid: &Grid) -> Option<f64> {
         self.of_voxel(grid.voxel())
     }
 
-    /// The length in world units where a voxel is so long, as [`Length::world`].
+    /// Like [`Length::world`], for voxels of the given length.
     pub fn of_voxel(self, voxel: f64) -> Option<f64> {
         match self {
             Self::World(length) => Some(length),

@@ -1,9 +1,10 @@
 //! The only source of transcendental functions ([PREC-4]).
 //!
-//! All functions are from the pure-Rust `libm` or our own over `+ − × ÷`, so that the same scene gives the same bits on
-//! every IEEE 754 machine. `+ − × ÷ √` are the language's own: they are exactly rounded everywhere.
+//! All functions are from the pure-Rust `libm`, or are this module's own series over `+ − × ÷`. The same scene
+//! therefore gives the same bits on every IEEE 754 machine. `+ − × ÷ √` are the language's own, and exactly rounded
+//! everywhere.
 //!
-//! Our own series are written once, over a [`Width`]: for one number, and for the vector registers of another crate.
+//! The series are written once, over a [`Width`]: for one number, and for the vector registers of another crate.
 
 use std::ops::Mul;
 
@@ -22,7 +23,8 @@ pub fn angle(y: f64, x: f64) -> f64 {
     angle::angle(One, y, x)
 }
 
-/// x^y for 0 < x ≤ 1 and 0 ≤ y ≤ 1.5 and a little, to less than an ulp: [`power::power`], and [`pow`] where x is tiny.
+/// x^y for 0 < x ≤ 1 and 0 ≤ y up to slightly above 1.5, to less than an ulp. See [`power::power`]; for tiny x, [`pow`]
+/// is used.
 #[inline]
 pub fn power(x: f64, y: f64) -> f64 {
     if x < power::LEAST { pow(x, y) } else { power::power(One, x, y) }
@@ -147,7 +149,7 @@ pub fn scale_by_power_of_two(x: f64, n: i32) -> f64 {
     libm::ldexp(x, n)
 }
 
-/// The exponent e for which |x| · 2^−e lies in [½, 1); 0 for x = 0 and for what is not finite.
+/// The exponent e for which |x| · 2^−e lies in [½, 1); 0 for x = 0, NaN and ±∞.
 pub fn exponent(x: f64) -> i32 {
     if x == 0.0 || !x.is_finite() { 0 } else { libm::frexp(x).1 }
 }

@@ -1,4 +1,4 @@
-//! Facts that only data can tell, measured once and handed to every renderer that did not measure it itself.
+//! Facts measured from the data. They are measured once, and handed to every renderer of the shot.
 
 use crate::mesh::BoxNode;
 use crate::volume::Bricks;
@@ -11,9 +11,9 @@ pub struct PaddedNumbers {
     pub data: Vec<f64>,
     /// Numbers along x, y and z, border included.
     pub dims: [usize; 3],
-    /// Numbers before the first voxel of a line.
+    /// Numbers before the first voxel of each line along an axis.
     pub pad: usize,
-    /// The largest magnitude. It stays when the numbers go ([`Measured::without_numbers`]).
+    /// The largest magnitude. [`Measured::without_numbers`] keeps it.
     pub largest: f64,
 }
 
@@ -31,13 +31,13 @@ impl PaddedNumbers {
 pub struct Measured {
     /// The numbers that the shot's kernel weighs: voxels, or the coefficients of a spline ([REC-1]).
     pub numbers: Arc<PaddedNumbers>,
-    /// The voxels, where an estimator reads them and they are not the numbers.
+    /// The voxels, if an estimator reads them and `numbers` are coefficients.
     pub voxels: Option<Arc<PaddedNumbers>>,
-    /// Coefficients of the smoothed spline that `gaussian` Hessians are of ([REC-3]).
+    /// Coefficients of the smoothed spline, for `gaussian` Hessians ([REC-3]).
     pub smoothed: Option<Arc<PaddedNumbers>>,
-    /// Weights of the `regression` gradient: for each of the 64 cases of neighbours along x + 4 · those along y + 16 · those
-    /// along z, and each index axis, those of the 3³ voxels around one, x fastest ([STIP-1]). Neighbours along an axis: 1 for
-    /// one before, plus 2 for one after. None where no gradient reads them.
+    /// Weights of the `regression` gradient ([STIP-1]); none if no gradient reads them. For each case and each index
+    /// axis, these are the weights of the 3³ voxels around a voxel, x fastest. Case nx + 4ny + 16nz has 1 in n for a
+    /// neighbour before the voxel on that axis, plus 2 for one after it.
     pub regression: Option<Vec<f64>>,
     /// The value of number 0.
     pub base: f64,
@@ -45,7 +45,8 @@ pub struct Measured {
     pub gradient_range: Option<[f64; 2]>,
     /// The gradient, in values per world unit, of which a small share is rounding ([PREC-3]): 2⁻²⁰ in f32, 2⁻⁴⁶ in f64.
     pub gradient_scale: f64,
-    /// Distances of the volume's voxels to a label, in world units, for each quantity of the function that is one ([STF-4]).
+    /// Distances of the volume's voxels to a label, in world units, for each of the function's two quantities that is
+    /// such a distance ([STF-4]).
     pub label_distances: [Option<Vec<f64>>; 2],
     /// Ranges of values of bricks of cells; none where nothing is skipped ([RAY-2]).
     pub bricks: Option<Bricks>,

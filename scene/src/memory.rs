@@ -1,8 +1,8 @@
 //! The memory budget: the bytes that may still be allocated.
 //!
-//! A system that promises more memory than it has ends the process when the promise is called in, and an allocation
-//! that fails aborts the process. Everything that a file or a key can make large therefore asks [`room`] first. A
-//! refusal names the bytes needed and the bytes that would fit.
+//! A system that promises more memory than it has may end the process when the memory is used. An allocation that fails
+//! aborts the process. Everything that a file or a key can make large therefore asks [`room`] first. A refusal names
+//! the bytes needed and the bytes that would fit.
 
 use crate::source::Source;
 use std::io::{self, ErrorKind, Read};
@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 const GIBIBYTE: f64 = (1u64 << 30) as f64;
 
-/// The bytes that the process may have at most, as [`limit`] was told; `u64::MAX`: no limit of its own.
+/// The bytes that the process may have at most, set by [`limit`]; `u64::MAX`: no limit.
 static LIMIT: AtomicU64 = AtomicU64::new(u64::MAX);
 
 /// A refusal: the bytes that something needs, and those that are free.
@@ -67,12 +67,12 @@ impl From<NoRoom> for io::Error {
     }
 }
 
-/// Limits the memory of this process to `bytes`, for all of [`room`] from now on.
+/// Limits the memory of this process to `bytes`. All later calls of [`room`] respect the limit.
 pub fn limit(bytes: u64) {
     LIMIT.store(bytes, Ordering::Relaxed);
 }
 
-/// Checks that so many bytes are available now: the budget allows them, the system has them, and the allocator gives
+/// Checks that `needed` bytes are available now: the budget allows them, the system has them, and the allocator gives
 /// them.
 ///
 /// # Errors

@@ -16,11 +16,12 @@ pub struct OtherGrid {
 }
 
 impl OtherGrid {
-    /// Largest difference, in voxels, of two grids that count as one. Headers keep places in single precision, and one
-    /// has a matrix where another has a quaternion. A position may lie outside the box of another grid by as much.
+    /// Largest difference, in voxels, of two grids that count as equal. Headers may differ by rounding to single
+    /// precision, or between a matrix and a quaternion. A position may lie outside the box of another grid by this
+    /// difference.
     pub const SLACK: f64 = 1.0 / 1024.0;
 
-    /// A map from positions on one grid to positions on another. Returns none if the grids are one, voxel on voxel.
+    /// Makes the map from positions on one grid to positions on another. None if the voxels of both grids coincide.
     pub fn new(data: &Grid, other: &Grid) -> Option<Self> {
         let inverse = other.inverse_axes();
         let own_box = other.index_box();
@@ -63,7 +64,7 @@ impl OtherGrid {
         self.reach
     }
 
-    /// Whether that box contains a position of the other grid.
+    /// Whether the box [`reach`](Self::reach) contains a position of the other grid.
     #[inline(always)]
     pub fn has(&self, p: DVec3) -> bool {
         let [lo, hi] = self.reach;
@@ -75,7 +76,7 @@ impl OtherGrid {
         corners(self.data_box).all(|p| (self.apply(p) - p).abs().max_element() <= Self::SLACK)
     }
 
-    /// Bounds of the other grid's positions of a part of the data's cells, with a margin for rounding.
+    /// Bounds of the positions, on the other grid, of a box of the data's cells, with a margin for rounding.
     pub fn bounds(&self, first: [usize; 3], end: [usize; 3]) -> [DVec3; 2] {
         let number = |i: [usize; 3]| DVec3::from_array(i.map(|i| i as f64));
         // On an axis of length 1, positions may lie outside its one cell.

@@ -1,8 +1,8 @@
 //! Loops on all threads.
 //!
-//! Loops take their function behind a reference, so that rayon's adapters are compiled once, here, and not for every loop
-//! of every number type. A call through a reference takes nanoseconds: an item should be worth more, such as a tile, a row
-//! or a run of voxels. Results come in the order of the items, whatever the number of threads.
+//! Loops take their function behind a reference. Rayon's adapters are then compiled only here, and not for every loop
+//! of every number type. A call through a reference takes nanoseconds, so an item should be a tile, a row or a run of
+//! voxels. Results come in the order of the items, whatever the number of threads.
 
 use rayon::prelude::*;
 use std::ops::Range;
@@ -16,7 +16,7 @@ pub fn threads() -> usize {
     rayon::current_num_threads()
 }
 
-/// Does work on a thread of the pool, so that its loops do not enter the pool one by one.
+/// Does work on a thread of the pool, so that the loops inside do not enter the pool one by one.
 pub fn in_pool(work: &mut (dyn FnMut() + Send)) {
     rayon::scope(|_| work());
 }
@@ -60,7 +60,7 @@ pub fn map_of<P: Send, T: Send>(parts: Vec<P>, f: &(dyn Fn(usize, P) -> T + Sync
     results.into_iter().flatten().collect()
 }
 
-/// The lists that a function appends for runs of `run` of the numbers 0, 1, … n − 1, joined.
+/// Splits 0, 1, … n − 1 into runs of `run` numbers. Returns the joined lists that the function appends for the runs.
 ///
 /// # Panics
 /// If `run` is 0.

@@ -36,7 +36,7 @@ pub fn uniforms(seed: u64, cell: [u32; 3], draw: u32) -> [f64; 4] {
     uniforms_of(seed, cell, [draw]).map(|[u]| u)
 }
 
-/// [`uniforms`] of several draws side by side, first those of each draw's first word.
+/// [`uniforms`] of several draws side by side. The numbers of all draws' first words come first.
 #[inline(always)]
 pub fn uniforms_of<const N: usize>(seed: u64, [x, y, z]: [u32; 3], draws: [u32; N]) -> [[f64; N]; 4] {
     let words = words([[x; N], [y; N], [z; N], draws], [seed as u32, (seed >> 32) as u32]);

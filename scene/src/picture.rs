@@ -12,7 +12,7 @@ pub struct Picture {
     pub width: usize,
     /// Pixels from top to bottom.
     pub height: usize,
-    /// In the order they were asked for.
+    /// The layers, in the order in which the scene asked for them.
     pub layers: Vec<Layer>,
 }
 
@@ -30,7 +30,7 @@ pub struct Layer {
 pub enum LayerKind {
     /// The picture: linear premultiplied RGBA with the background behind.
     Beauty,
-    /// Eye depth where accumulated opacity first reaches ½; the bare `Z`.
+    /// Eye depth where accumulated opacity first reaches ½; the channel is `Z`.
     Z,
     /// `depth.FIRST`, `depth.HALF`, `depth.MEAN`.
     Depth,
@@ -42,13 +42,13 @@ pub enum LayerKind {
     Curvature,
     /// Only the scene's κ: `curvature.KV`; computes no Hessian by itself.
     CurvatureAlongView,
-    /// The value at the first sample with α > 0: `first.VALUE`.
+    /// The value at the first visible sample, which has α > 0: `first.VALUE`.
     First,
-    /// N there, in eye space: `first.normal.X` and so on.
+    /// N at the first visible sample, in eye space: `first.normal.X` and so on.
     FirstNormal,
-    /// `K1`, `K2` and `KV` there: `first.curvature.K1` and so on.
+    /// `K1`, `K2` and `KV` at the first visible sample: `first.curvature.K1` and so on.
     FirstCurvature,
-    /// Only the scene's κ there: `first.curvature.KV`; computes no Hessian by itself.
+    /// Only the scene's κ at the first visible sample: `first.curvature.KV`; computes no Hessian by itself.
     FirstCurvatureAlongView,
     /// Samples evaluated on the ray: `counts.SAMPLES`.
     Counts,
@@ -120,8 +120,8 @@ impl LayerKind {
         one.or_else(|| numbered(HALO, Self::Halo)).or_else(|| numbered(PART, Self::Part))
     }
 
-    /// Whether a pixel of several rays has the mean over all of them: of objects the plain mean, of other layers that
-    /// weighted by opacity. Layers that are neither means nor the beauty have one ray's numbers ([RAY-6]).
+    /// Whether a pixel of several rays has the mean over its rays. The mean is plain for objects, and weighted by
+    /// opacity for other layers. Layers that are neither means nor the beauty have one ray's numbers ([RAY-6]).
     pub fn is_mean(self) -> bool {
         matches!(self, Self::Normal | Self::Gradient | Self::Curvature | Self::CurvatureAlongView | Self::Part(_))
     }
@@ -161,7 +161,8 @@ impl Picture {
     }
 }
 
-/// The origin of a picture as its file says it ([IO-2]): no date, so that the same scene gives the same bytes.
+/// The origin of a picture, for the picture's file ([IO-2]). There is no date, so that the same scene gives the same
+/// bytes.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Provenance {
     /// Name and version of the program.

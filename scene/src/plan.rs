@@ -1,7 +1,8 @@
 //! The plan of a scene: the work that it calls for, and why ([PLAN-1], [PLAN-3]). Nothing else is computed.
 //!
-//! The rules of a table stand in `plan::rules`, one file a table: each says what its effect needs and which line of the scene
-//! asked for it. Here they are gathered and closed under what one quantity needs of another.
+//! The rules of a table stand in `plan::rules`, one file a table. They say what the table's effect needs, and which
+//! line of the scene asked for it. This module collects the needs, and adds the quantities that needed quantities are
+//! made of.
 
 mod asks;
 mod ladder;
@@ -22,8 +23,8 @@ use asks::Drawn;
 use rules::rules;
 
 impl Plan {
-    /// The plan of a scene. It depends on the scene alone; what the scene leaves to the volume is in it until
-    /// [`Plan::settle`].
+    /// The plan of a scene. It depends on the scene alone. Work that the scene leaves to the volume stays in the plan
+    /// until [`Plan::settle`].
     pub fn new(scene: &Scene) -> Self {
         Self::of(scene, Drawn { volume: scene.draws_volume(), points: true, strokes: true })
     }
@@ -72,8 +73,8 @@ impl Plan {
         plan
     }
 
-    /// Takes out what the scene leaves to the volume and this one does not need: smoothing with `hessian = "auto"`, which
-    /// is for files of integers ([REC-3]).
+    /// Removes work that the scene leaves to the volume and this volume does not need. This is smoothing with `hessian
+    /// = "auto"`, which only files of integers need ([REC-3]).
     pub fn settle(&mut self, scene: &Scene, integer: bool) {
         if integer || !self.passes.iter().any(|need| need.integer_only) {
             return;

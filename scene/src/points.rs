@@ -10,14 +10,14 @@ use glam::DVec3;
 pub struct Points {
     /// The grid of the voxels: the volume's, or that of its boxes ([STIP-2]).
     pub grid: Grid,
-    /// Points of each voxel: N_max ([STIP-3]), or the next whole number where `full` is none.
+    /// Points of each voxel: N_max ([STIP-3]), or `full` rounded up if `full` is not a whole number.
     pub each: usize,
-    /// Number of a voxel's points that T = 1 stands for: all of them, or less than one fewer with `k_max = "auto"`
-    /// ([STIP-17]) and in thin layers of voxels that are not cubes ([STIP-4]).
+    /// Number of a voxel's points that T = 1 stands for. It is `each`, or a number less than 1 below `each` with `k_max
+    /// = "auto"` ([STIP-17]) and in thin layers of voxels that are not cubes ([STIP-4]).
     pub full: f64,
     /// The voxels that have points, in ascending linear order.
     pub voxels: Vec<PointVoxel>,
-    /// The vector from the voxel's centre to the point, in index space.
+    /// The vector from the voxel's centre to each point, in index space.
     pub offsets: Vec<[f32; 3]>,
 }
 
@@ -41,7 +41,7 @@ pub struct SurfacePoint {
     pub at: DVec3,
     /// The outward normal of its voxel, of length 1, in the world.
     pub normal: DVec3,
-    /// The largest distance of its foot on the surface, in world units.
+    /// The largest distance at which the point's foot on the surface is sought, in world units.
     pub reach: f64,
 }
 
@@ -53,7 +53,7 @@ impl PointVoxel {
 }
 
 impl Points {
-    /// The points of a voxel, first those that are drawn first.
+    /// The points of a voxel, in the order in which they are drawn.
     pub fn of(&self, voxel: usize) -> &[[f32; 3]] {
         &self.offsets[voxel * self.each..][..self.each]
     }

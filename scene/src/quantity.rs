@@ -5,9 +5,9 @@
 pub enum Quantity {
     /// f.
     Value,
-    /// g, with it the normal ([REC-2], [NORM-1]).
+    /// g and the normal ([REC-2], [NORM-1]).
     Gradient,
-    /// The normal of the sample before on the ray ([STF-5]).
+    /// The normal of the previous sample on the ray ([STF-5]).
     PreviousNormal,
     /// H, with the gradient of its own field ([REC-3], [CUR-1]).
     Hessian,
@@ -23,7 +23,7 @@ pub enum Quantity {
     FurtherVolume,
     /// The place where a ray first meets the iso-surface ([HATCH-14]).
     Surface,
-    /// The normal there.
+    /// The normal of the iso-surface at that place.
     SurfaceNormal,
     /// The place where a ray first meets a mesh ([VS-12]).
     Mesh,
@@ -81,7 +81,7 @@ impl Quantity {
         }
     }
 
-    /// The work that it adds if only the first visible sample of each ray needs it.
+    /// The work that the quantity adds if only the first visible sample of each ray needs it.
     pub(crate) fn adds_at_first(self) -> &'static str {
         match self {
             Self::Gradient | Self::PreviousNormal => "one gradient a ray",
@@ -90,7 +90,7 @@ impl Quantity {
         }
     }
 
-    /// The work that it adds if samples that are asked for seeds need it.
+    /// The work that the quantity adds if samples that may seed halos need it.
     pub(crate) fn adds_at_seeds(self) -> &'static str {
         match self {
             Self::Gradient => "one gradient a seed sample",
@@ -104,7 +104,7 @@ impl Quantity {
         }
     }
 
-    /// The quantity that it is made of.
+    /// The quantity that this one is made of.
     pub(crate) fn prerequisite(self) -> Option<Self> {
         match self {
             Self::Value | Self::Label | Self::Distance | Self::LabelDistance | Self::FurtherVolume => None,

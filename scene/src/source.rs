@@ -10,7 +10,7 @@ pub trait Content: Read + Seek {}
 
 impl<R: Read + Seek> Content for R {}
 
-/// A source of files by their paths. A path is the scene's folder joined with what the scene says.
+/// A source of files by their paths. A path is the scene's folder joined with the path in the scene.
 pub trait Source: Send + Sync {
     /// Opens a file at its first byte.
     ///

@@ -12,7 +12,7 @@ pub struct Grid {
     smallest_singular: f64,
 }
 
-/// A grid that cannot be.
+/// A fault that makes a grid impossible.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SpaceError {
     /// An axis has no voxel.
@@ -131,7 +131,7 @@ impl Grid {
         [self.axes.x_axis.length(), self.axes.y_axis.length(), self.axes.z_axis.length()]
     }
 
-    /// One voxel: the smallest spacing, axes of length 1 not counted unless all are ([SPACE-5]).
+    /// One voxel: the smallest spacing. Axes of length 1 count only if there is no other ([SPACE-5]).
     #[inline]
     pub fn voxel(&self) -> f64 {
         let spacing = self.spacing();

@@ -16,10 +16,11 @@ const IDEAL: [f64; 17] = [
     0.9845, 0.9893,
 ];
 
-/// λa between two of them.
+/// λa between two entries of [`IDEAL`].
 const STEP: f64 = 0.125;
 
-/// The coverage that T = 1 stands for where tone is asked for: beyond it the last gaps close, and take many dots.
+/// The coverage that T = 1 stands for where tone is asked for. Closing the last gaps beyond this coverage takes many
+/// dots.
 pub const FULL: f64 = 0.9;
 
 /// The tone curve of a pen on its paper: printed coverage over wanted coverage.
@@ -37,7 +38,7 @@ pub enum ToneError {
     Io {
         /// The file.
         path: PathBuf,
-        /// Why.
+        /// The system's error.
         source: std::io::Error,
     },
     /// A line is no row of a step wedge.
@@ -53,7 +54,7 @@ pub enum ToneError {
 }
 
 impl ToneError {
-    /// The file, and where in it.
+    /// The file, and the line if it is known.
     pub fn place(&self) -> String {
         match self {
             Self::Io { path, .. } => path.display().to_string(),
@@ -63,7 +64,7 @@ impl ToneError {
 }
 
 impl Tone {
-    /// A pen whose dots are discs of its nib: what is wanted is what is printed.
+    /// A pen whose dots are discs of its nib. Printed coverage is wanted coverage.
     pub fn ideal() -> Self {
         Self { rows: vec![[0.0, 0.0], [1.0, 1.0]] }
     }
@@ -154,18 +155,18 @@ impl Tone {
         along(&self.rows, wanted, 0)
     }
 
-    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). It is the
-    /// least of several, and the last row's if the pen prints less.
+    /// The coverage to ask for so that `coverage` is printed: the inverse of [`printed`](Self::printed). The result is
+    /// the least of several, and the last row's if the pen prints less.
     pub fn asked(&self, coverage: f64) -> f64 {
         along(&self.rows, coverage, 1)
     }
 
-    /// The coverage of dots of λa.
+    /// The coverage of evenly spread dots with `ink` = λa.
     pub fn coverage(&self, ink: f64) -> f64 {
         self.printed(ideal(ink))
     }
 
-    /// The λa of dots that cover so much.
+    /// The λa of evenly spread dots that give a coverage.
     pub fn ink(&self, coverage: f64) -> f64 {
         let asked = self.asked(coverage);
         let i = IDEAL.partition_point(|&c| c < asked).clamp(1, IDEAL.len() - 1);
@@ -175,19 +176,19 @@ impl Tone {
 }
 
 impl Tone {
-    /// The coverage of dots of λa in so many layers, each even and none in step with another: 1 − (1 − c)^layers, c the
-    /// coverage of one layer.
+    /// The coverage of evenly spread dots with `ink` = λa in independent layers: 1 − (1 − c)^layers, c the coverage of
+    /// one layer.
     pub fn coverage_of_layers(&self, ink: f64, layers: f64) -> f64 {
         1.0 - pow(1.0 - self.coverage(ink / layers), layers)
     }
 
-    /// The λa of dots in so many layers that cover so much.
+    /// The λa of dots in several layers that give a coverage.
     pub fn ink_of_layers(&self, coverage: f64, layers: f64) -> f64 {
         layers * self.ink(1.0 - pow((1.0 - coverage).max(0.0), 1.0 / layers))
     }
 }
 
-/// Coverage of evenly spread discs; beyond the table its last.
+/// Coverage of evenly spread discs; beyond the table, its last entry.
 fn ideal(ink: f64) -> f64 {
     let at = (ink / STEP).clamp(0.0, (IDEAL.len() - 1) as f64);
     let i = (at as usize).min(IDEAL.len() - 2);

@@ -30,7 +30,7 @@ pub struct View {
     pub size: [usize; 2],
 }
 
-/// A camera that sees nothing.
+/// A fault of a camera that can see nothing.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum ViewError {
     /// Eye and target are one point, or a direction has no length.
@@ -102,8 +102,8 @@ impl View {
         }
     }
 
-    /// The point of the picture at which a world position is seen, as [`ray`](Self::ray) counts points; none where it is not
-    /// in front of the eye.
+    /// The point of the picture at which a world position is seen, in the coordinates of [`ray`](Self::ray). None if
+    /// the position is not in front of the eye.
     #[inline]
     pub fn point_of(&self, p: DVec3) -> Option<[f64; 2]> {
         let p = self.to_eye(p);

@@ -8,7 +8,8 @@ use drypoint_scene::picture::{LayerKind, Picture, Provenance};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// An animated PNG. Each frame has the pixels of the frame's own PNG, of 8 or 16 bits a channel with full alpha.
+/// An animated PNG. Each frame has the pixels that [`encode_png`](crate::png::encode_png) gives its picture, with 8 or
+/// 16 bits a channel.
 pub struct ApngAnimation<W: Write> {
     writer: png::Writer<W>,
     size: [usize; 2],
@@ -60,7 +61,7 @@ impl<W: Write> ApngAnimation<W> {
     }
 }
 
-/// Returns an error of the encoder as one of pictures.
+/// Converts an error of the encoder.
 fn refusal(error: png::EncodingError, path: &Path) -> OutputError {
     match error {
         png::EncodingError::IoError(source) => refused(path, source),

@@ -16,8 +16,8 @@ const COLORS: usize = 255;
 /// The label of a comment extension.
 const COMMENT: AnyExtension = AnyExtension(0xfe);
 
-/// An animated GIF in straight sRGB. A frame of at most 255 colours keeps them; others get the nearest of 255 means.
-/// A pixel is transparent where α is below ½, else opaque.
+/// An animated GIF in straight sRGB. A frame keeps up to 255 colours. If it has more, pixels get the nearest of 255
+/// mean colours. A pixel is transparent where α is below ½, else opaque.
 pub struct GifAnimation<W: Write> {
     encoder: Encoder<W>,
     size: [usize; 2],
@@ -27,8 +27,8 @@ pub struct GifAnimation<W: Write> {
 }
 
 impl<W: Write> GifAnimation<W> {
-    /// Begins an animation of `fps` frames a second. A comment has the program and the scene's hash. `path` is the
-    /// file's name for errors.
+    /// Begins an animation of `fps` frames a second. The file's comment names the program and the scene's hash. `path`
+    /// is the file's name for errors.
     ///
     /// # Errors
     /// [`OutputError::Layer`] for a side of 0 or more than 65535 pixels, [`OutputError::Io`].
@@ -105,7 +105,7 @@ impl<W: Write> GifAnimation<W> {
     }
 }
 
-/// Returns the sides in the type that GIF has for them.
+/// Returns width and height as u16, the type of a GIF's sides.
 fn sides(size: [usize; 2]) -> Result<[u16; 2], OutputError> {
     let side = |n: usize| u16::try_from(n).ok().filter(|&n| n > 0);
     match size.map(side) {
@@ -117,7 +117,7 @@ fn sides(size: [usize; 2]) -> Result<[u16; 2], OutputError> {
     }
 }
 
-/// Returns an error of the encoder as one of pictures.
+/// Converts an error of the encoder.
 fn refusal(error: EncodingError, path: &Path) -> OutputError {
     match error {
         EncodingError::Io(source) => refused(path, source),

@@ -1,4 +1,4 @@
-//! Animations of pictures as GIF and APNG. They are written frame by frame, keep none, and are shown again and again.
+//! Animations of pictures as GIF and APNG. Frames are written one by one and not kept. The animation repeats for ever.
 
 pub mod apng;
 pub mod gif;

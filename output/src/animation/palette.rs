@@ -1,16 +1,16 @@
-//! Palettes of few colours for a picture of many, by cuts of the colour cube at means. Integers alone: the same palette
-//! on every machine.
+//! Palettes that reduce the colours of a picture by cutting the colour cube at means. All numbers are integers, so
+//! every machine finds the same palette.
 
 use std::cmp::Reverse;
 
 /// A colour of the picture, and the number of its pixels.
 type Counted = ([u8; 3], u64);
 
-/// A palette, and the place in it of every colour of its picture.
+/// A palette, and the palette's index for every colour of its picture.
 pub(super) struct Palette {
     /// The colours.
     pub(super) colors: Vec<[u8; 3]>,
-    /// Colours of the picture in order, each with its place in the palette.
+    /// Colours of the picture in ascending order, each with its index in the palette.
     places: Vec<([u8; 3], u8)>,
 }
 
@@ -23,9 +23,9 @@ struct ColorBox {
 }
 
 impl Palette {
-    /// Returns a palette of at most `most` ≤ 256 colours. If the picture has no more colours, these are its own. Else
-    /// the box of colours with the largest spread is cut at its mean until there are `most` boxes, whose mean colours
-    /// are the palette. A colour of the picture gets the nearest colour of the palette.
+    /// Returns a palette of at most `most` ≤ 256 colours. A picture with no more colours keeps its own. Otherwise the
+    /// box of colours with the largest spread is cut at its mean until there are `most` boxes. The palette holds the
+    /// boxes' mean colours. A colour of the picture gets the nearest colour of the palette.
     pub(super) fn new(pixels: impl Iterator<Item = [u8; 3]>, most: usize) -> Self {
         let counted = counts(pixels);
         let cut = counted.len() > most;
@@ -48,7 +48,7 @@ impl Palette {
         Self { colors, places }
     }
 
-    /// Returns the place of a colour of the picture; 0 for any other colour.
+    /// Returns the palette's index for a colour of the picture; 0 for any other colour.
     pub(super) fn index(&self, color: [u8; 3]) -> u8 {
         self.places.binary_search_by_key(&color, |&(of, _)| of).map_or(0, |at| self.places[at].1)
     }
@@ -70,7 +70,8 @@ impl ColorBox {
         Self { colors, axis, spread: spreads[axis] }
     }
 
-    /// Returns the colours up to the mean along the axis, and those above. Neither is empty where the spread is not 0.
+    /// Returns the colours up to the mean along the axis, and those above. Neither half is empty if the spread is above
+    /// 0.
     fn halves(self) -> [Self; 2] {
         let (axis, mean) = (self.axis, self.sums()[self.axis] / self.weight());
         let (low, high) = self.colors.into_iter().partition(|&(color, _)| u64::from(color[axis]) <= mean);
@@ -92,7 +93,7 @@ impl ColorBox {
     }
 }
 
-/// Returns the place of the nearest of at most 256 colours, of equally near ones the first.
+/// Returns the index of the nearest of at most 256 colours. Ties go to the first one.
 fn nearest(colors: &[[u8; 3]], color: [u8; 3]) -> u8 {
     let squared =
         |other: &[u8; 3]| -> u32 { other.iter().zip(color).map(|(a, b)| u32::from(a.abs_diff(b)).pow(2)).sum() };

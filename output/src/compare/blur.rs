@@ -1,5 +1,5 @@
-//! Blurred pictures of dots, as seen from farther away ([COST-1]). A blur keeps the mean coverage around a place, which
-//! is its tone, and forgets where each dot lies.
+//! Blurred pictures of dots, as seen from farther away ([COST-1]). A blur keeps the tone, which is the mean coverage
+//! around a place, but not the position of each dot.
 
 use super::flip::filter::{separable, unit_sum, weights};
 use crate::read::Image;

@@ -4,8 +4,8 @@ use super::flip::FlipMap;
 use drypoint_scene::color::srgb_to_linear;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 
-/// Sixteen evenly spaced colours (sRGB) of the map Magma by N. Smith and S. van der Walt (CC0). FLIP's authors show
-/// their maps in it. Linear interpolation is within 2.2/255 of the published table of 256.
+/// Sixteen evenly spaced colours (sRGB) of the map Magma by N. Smith and S. van der Walt (CC0). FLIP's authors use this
+/// colour map. Linear interpolation is within 2.2/255 of the published table of 256.
 const MAGMA: [[u8; 3]; 16] = [
     [0, 0, 4],
     [11, 9, 36],

@@ -31,7 +31,7 @@ impl From<&Stroke> for WorldLine {
 pub struct LineDistance {
     /// Root mean square over points of both lists of the distance to the other list.
     pub rms: f64,
-    /// Largest of these distances: Hausdorff's distance.
+    /// Largest distance of a point to the other list: Hausdorff's distance.
     pub max: f64,
 }
 
@@ -65,7 +65,7 @@ pub fn line_distance<L: Into<WorldLine>>(
 }
 
 /// Returns the angles between two lines, in radians from 0 to π/2, at the arc lengths `step`, 2·`step` … from their
-/// first vertices. The shorter line ends the list.
+/// first vertices. The list ends where the shorter line ends.
 pub fn angles(a: &WorldLine, b: &WorldLine, step: f64) -> Vec<f64> {
     let [along_a, along_b] = [a, b].map(|line| directions(line, step));
     along_a.iter().zip(&along_b).map(|(p, q)| atan2(p.cross(*q).length(), p.dot(*q).abs())).collect()
@@ -106,8 +106,8 @@ fn middle(piece: &WorldSegment, axis: usize) -> f64 {
     0.5 * (piece[0][axis] + piece[1][axis])
 }
 
-/// Sorts pieces into an implicit k-d tree by their midpoints. The median by one coordinate stands in the middle,
-/// smaller pieces before it, larger ones after it. Each half is sorted by the next coordinate.
+/// Sorts pieces into an implicit k-d tree by their midpoints. The median by one coordinate stands in the middle.
+/// Smaller pieces stand before the median, larger pieces after it. Each half is sorted by the next coordinate.
 fn sort(pieces: &mut [WorldSegment], axis: usize) {
     if pieces.len() <= FEW {
         return;

@@ -56,14 +56,14 @@ pub struct Comparison {
     pub tolerance: f64,
     /// Pixels with a larger difference than `tolerance`.
     pub over: usize,
-    /// Values that are finite in one picture only, in all layers. Their pixels count as differing and as over; `max`
-    /// and `rms` leave them out.
+    /// Values of all layers that cannot be compared, as [`LayerDifference::apart`] counts them. Their pixels count as
+    /// differing and as over; `max` and `rms` leave the values out.
     pub apart: usize,
     /// The layers that both pictures have.
     pub layers: Vec<LayerDifference>,
-    /// Channels that only the first has.
+    /// Channels that only the first picture has.
     pub only_in_a: Vec<String>,
-    /// Channels that only the second has.
+    /// Channels that only the second picture has.
     pub only_in_b: Vec<String>,
 }
 
@@ -76,7 +76,7 @@ pub struct LayerDifference {
     pub channels: Vec<String>,
     /// The largest |a − b|.
     pub max: f64,
-    /// Column and row of the first pixel with that difference.
+    /// Column and row of the first pixel with the difference `max`.
     pub at: [usize; 2],
     /// √(Σ(a − b)²/n) over all n values of the layer's channels.
     pub rms: f64,

@@ -11,8 +11,8 @@
 //! | `color` | lines only, where a vertex has one of its own: `#rrggbb` | |
 //! | `pen` | name of the pen, where there are several layers of dots or lines | |
 //!
-//! A closed line repeats its first vertex at the end, and an open line that ends where it began is read as closed.
-//! Lists are read back bit for bit if the marks were rounded and on the page
+//! A closed line repeats its first vertex at the end. An open line that ends where it began is therefore read as
+//! closed. Lists are read back bit for bit if the marks were rounded and on the page
 //! ([`Marks::settle`](drypoint_scene::marks::Marks::settle)).
 
 mod read;

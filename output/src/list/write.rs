@@ -125,8 +125,8 @@ impl ListWriter {
         self.out.insert_str(at, ",color");
     }
 
-    /// Writes the colour of a vertex, before the pen. A vertex in the pen's colour has an empty cell, or in JSON no
-    /// key.
+    /// Writes the colour of a vertex, before the pen. For the pen's colour, the cell is empty in CSV, and the key is
+    /// missing in JSON.
     fn color(&mut self, color: Option<Rgb>) {
         let own = color.map(|[r, g, b]| hex([r, g, b, 1.0]));
         match (self.form, own) {

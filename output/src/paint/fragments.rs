@@ -8,7 +8,7 @@ use drypoint_scene::marks::{Marks, Piece, Polyline};
 use drypoint_scene::view::View;
 
 /// Returns the fragments of lines on the n×n rays of each pixel of a view. A line has one fragment on each ray whose
-/// part of the pixel it covers. Its depth is that of the point on the line's middle that is nearest to the ray on the
+/// part of the pixel it covers. The depth is taken at the point on the line's middle that is nearest to the ray on the
 /// page.
 pub fn fragments(marks: &Marks, view: &View, samples: usize) -> Fragments {
     let rays = view.size.map(|n| n * samples);

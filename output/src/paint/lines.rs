@@ -39,7 +39,7 @@ pub(super) fn paint(lines: &[Polyline], window: &PageWindow, size: [usize; 2], i
     }
 }
 
-/// Whether piece `b` begins where piece `a` ends. Both are then of one line, which covers once.
+/// Whether piece `b` begins where piece `a` ends. Such pieces belong to one line, whose ink covers a place only once.
 pub(super) fn goes_on(a: &Piece, b: &Piece) -> bool {
     a.points.last() == b.points.first()
 }

@@ -81,9 +81,9 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
 
 /// Draws marks over the layer `beauty`, layer by layer: lines first, then dots.
 ///
-/// A dot covers the exact share of a pixel; two dots on a pixel add as c + d − cd, as if independent. Opaque lines are
-/// drawn as one outline a width. A translucent or coloured line is composited by itself. In `srgb` encoded colours are
-/// composited, as viewers of SVG and PDF do.
+/// A dot covers the exact share of a pixel; two dots on a pixel add as c + d − cd, as if independent. All opaque lines
+/// of one width are drawn as one outline. A translucent or coloured line is composited by itself. With `blend` =
+/// `srgb`, encoded colours are composited, as in viewers of SVG and PDF.
 ///
 /// # Errors
 /// [`OutputError::Layer`] if the picture has no beauty, or one that does not fit its size; [`OutputError::NotFinite`].

@@ -1,9 +1,9 @@
-//! Dots far enough from each other for a nib.
+//! Selection of dots that are far enough apart for a nib.
 
 use crate::grid::{CellGrid, NONE, micrometres};
 use drypoint_scene::marks::Dot;
 
-/// Returns the dots in order, without those closer than `closest` mm to a kept one before them.
+/// Returns the dots in order, without each dot that is closer than `closest` mm to an earlier kept dot.
 pub(super) fn spaced(dots: &[Dot], closest: f64) -> Vec<Dot> {
     let places: Vec<[i64; 2]> = dots.iter().map(|dot| dot.at.to_array().map(micrometres)).collect();
     let reach = closest * 1000.0;

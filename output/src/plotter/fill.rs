@@ -14,8 +14,8 @@ const PITCH: f64 = 0.8;
 /// Largest distance of a chord from its curve, in mm.
 const CHORD: f64 = 0.005;
 
-/// Returns the stroke that fills a dot with a nib of that width. It is a circle, or where a circle leaves a hole a
-/// spiral from the centre with a circle along the rim. None for a dot that one touch of the nib makes.
+/// Returns the stroke that fills a dot with a nib of that width. The stroke is a circle along the rim. If the circle
+/// leaves a hole, a spiral from the centre precedes it. None for a dot that one touch of the nib fills.
 pub(super) fn stroke(dot: &Dot, nib: f64) -> Option<Polyline> {
     let rim = dot.radius - nib / 2.0;
     if rim <= SLACK || nib <= 0.0 {

@@ -26,7 +26,7 @@ pub struct PlotterPlan {
     pub plain: usize,
 }
 
-/// Least distance of dots of one pen, in nibs.
+/// Least distance between dots of one pen, in nibs.
 const CLOSEST: f64 = 0.7;
 
 /// Returns an upper bound of the vertices of the strokes that fill dots larger than the nib in [`plan`].
@@ -38,10 +38,10 @@ pub fn filling_vertices(marks: &Marks) -> f64 {
 /// Turns marks into what their pens can draw.
 ///
 /// A dot up to the nib's size becomes one touch, a larger one a circle or a spiral out to its rim. A pen has one width,
-/// one colour and no opacity: a translucent dot is drawn whole, a line once along its middle.
+/// one colour and no opacity. A translucent dot is therefore drawn opaque, and a line once along its middle.
 ///
-/// The first of two dots closer than 0.7 nib stays. The order is never longer than the list's own. Each layer begins at
-/// the page's upper left corner.
+/// If two dots are closer than 0.7 nib, only the first is drawn. The order is never longer than the list's own. Each
+/// layer begins at the page's upper left corner.
 pub fn plan(marks: &Marks, speed: &Speed) -> PlotterPlan {
     let (mut layers, mut travel, mut dropped, mut larger, mut plain) = (Vec::new(), Vec::new(), 0, 0, 0);
     for layer in &marks.layers {

@@ -63,7 +63,7 @@ fn between(i: usize, size: usize, n: usize) -> (usize, usize, f64) {
     (first, (first + 1).min(n - 1), x - first as f64)
 }
 
-/// Returns a + w(b − a), which is exactly a if both are equal.
+/// Returns a + w(b − a), which is exactly a if a = b.
 fn mix(a: f64, b: f64, w: f64) -> f64 {
     a + w * (b - a)
 }

@@ -35,7 +35,7 @@ mod tests {
     use drypoint_scene::source::Disk;
     use png::{BitDepth, ColorType, Encoder};
 
-    /// Only a file that says an opacity replaces that of the preset.
+    /// Only a file that contains opacity replaces the opacity of the preset.
     #[test]
     fn a_picture_without_alpha_has_no_opacity() {
         let folder = tempfile::tempdir().unwrap();

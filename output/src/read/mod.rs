@@ -1,4 +1,4 @@
-//! Pictures read from files, our own and other renderers' ([GPU-5]).
+//! Pictures read from files of Drypoint and of other renderers ([GPU-5]).
 
 mod background;
 mod exr;
@@ -56,7 +56,7 @@ impl Image {
 }
 
 impl From<&Picture> for Image {
-    /// Converts every layer. Of channels with the same name the first counts.
+    /// Converts every layer. If several channels have the same name, only the first one is kept.
     fn from(picture: &Picture) -> Self {
         let mut image = Self { width: picture.width, height: picture.height, channels: Vec::new() };
         for layer in &picture.layers {
@@ -71,17 +71,17 @@ impl From<&Picture> for Image {
 }
 
 /// Reads a PNG (at most 16 bits, any colour type) or an EXR (flat, any channels, one part or several). The first bytes
-/// decide which it is, not the name.
+/// decide the format, not the file's name.
 ///
 /// A PNG becomes `R G B A`: sRGB decoded to linear light, then multiplied by α ([VAL-3]). Chunks gAMA, cHRM and ICC are
 /// ignored.
 ///
-/// An EXR stays as it is. Its display window is the picture, 0 where there is no data. Channels of the second and
-/// further parts get the part's name as prefix.
+/// Values of an EXR are unchanged. The picture is the display window, and is 0 where the file has no data. Channels of
+/// the second and further parts get the part's name as prefix.
 ///
 /// # Errors
-/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], and before anything is allocated
-/// [`OutputError::TooLarge`] for a header that lies and [`OutputError::NoRoom`] for pixels that do not fit.
+/// [`OutputError::Io`], [`OutputError::UnknownFormat`], [`OutputError::Malformed`], [`OutputError::TooLarge`],
+/// [`OutputError::NoRoom`]. The last two are found before anything is allocated.
 pub fn read_image(path: &Path) -> Result<Image, OutputError> {
     decode(&bytes(&Disk, path)?, path)
 }
@@ -99,11 +99,11 @@ pub fn decode(bytes: &[u8], path: &Path) -> Result<Image, OutputError> {
     decode_within(bytes, path, &ImageLimits { side: usize::MAX, each: 0 })
 }
 
-/// The largest picture that is decoded for a use, and what the use makes of it.
+/// The limits of a picture that is decoded for a use.
 struct ImageLimits {
     /// Most pixels along a side.
     side: usize,
-    /// Bytes of memory a pixel that are made from the decoded channels, beside them.
+    /// Bytes of memory a pixel that the use needs beside the decoded channels.
     each: usize,
 }
 
@@ -129,7 +129,7 @@ fn decode_within(bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<Imag
     }
 }
 
-/// Whether a file says anything of opacity; `image` is what it was decoded to.
+/// Whether a file contains opacity; `image` is the decoded file.
 fn has_alpha(bytes: &[u8], image: &Image) -> bool {
     if bytes.starts_with(&PNG) { png::has_alpha(bytes) } else { image.channel("A").is_some() }
 }

@@ -64,7 +64,7 @@ pub(super) fn decode(bytes: &[u8], path: &Path, limits: &ImageLimits) -> Result<
     Ok(Image { width, height, channels })
 }
 
-/// Whether a PNG says anything of opacity: an alpha channel, or a transparent colour.
+/// Whether a PNG contains opacity: an alpha channel, or a transparent colour.
 pub(super) fn has_alpha(bytes: &[u8]) -> bool {
     let reader = Decoder::new(Cursor::new(bytes)).read_info();
     reader.is_ok_and(|reader| {

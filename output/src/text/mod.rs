@@ -51,8 +51,8 @@ pub fn strokes(text: &str) -> Vec<Vec<[f64; 2]>> {
     strokes
 }
 
-/// Returns the text, shortened in the middle by three dots if it is wider than `limit` font units. The ends of file
-/// names tell more than their middle.
+/// Returns the text. If it is wider than `limit` font units, three dots replace its middle, since the ends of file
+/// names tell more.
 pub fn fit(text: &str, limit: f64) -> String {
     if width(text) <= limit {
         return text.into();

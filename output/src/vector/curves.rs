@@ -6,13 +6,13 @@ use crate::grid::micrometres;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::math;
 
-/// Largest distance of chords from their curve, in mm ([HATCH-10]). A bend that leaves more is a corner.
+/// Largest distance of chords from their curve, in mm ([HATCH-10]). A bend with a larger distance is a corner.
 const CHORD: f64 = 0.05;
 
 /// cos 60°: a sharper bend is a corner.
 const SHARP: f64 = 0.5;
 
-/// Points nearer than this are one, in mm: their steps of 0.001 mm would be bends.
+/// Points nearer than this, in mm, count as one: the rounding to 0.001 mm would make bends.
 const NEAR: f64 = 0.01;
 
 /// A segment of a path, from the end of the one before.

@@ -1,13 +1,13 @@
 //! Partition of translucent dots into sets of disjoint ones.
 //!
-//! A path inks what it strokes once, but two overlapping dots must add. Dots that touch therefore go into different
-//! paths.
+//! A path inks a place only once, but the ink of two overlapping dots must add. Dots that touch therefore go into
+//! different paths.
 
 use super::groups::PagePoint;
 use crate::grid::{CellGrid, NONE};
 
-/// Largest number of sets, each one path. Dots beyond them become elements of their own, so that a heap of dots in one
-/// place costs no more than its size.
+/// Largest number of sets, each drawn as one path. Each further dot becomes an element of its own. The cost of many
+/// dots in one place is then bounded by their number.
 const SETS: usize = 64;
 
 /// Partitions dots of one diameter into sets without overlap. Each set keeps their order.

@@ -18,7 +18,7 @@ const ROUNDS: usize = 4;
 /// Weight of the previous handle lengths against the sample points.
 const HOLD: f64 = 0.01;
 
-/// Distance that further rounds cannot mend, in units of [`ACCURACY`].
+/// Distance, in units of [`ACCURACY`], above which no further rounds are tried.
 const HOPELESS: f64 = 40.0;
 
 /// Returns as few curves as stay within [`ACCURACY`] of a smooth run and keep the directions at their ends.

@@ -77,8 +77,9 @@ const CHUNK: usize = 256;
 
 /// Returns the groups of a layer: outlines, then strokes by width and opacity, then coloured lines in order.
 ///
-/// Dots of one path must not overlap unless they are opaque, because a path inks once. Dots are sorted into alternating
-/// rows, so that the moves between them are short. `keep` keeps their order instead. With `beziers` lines are smooth.
+/// Dots of one path must not overlap unless they are opaque, because a path inks a place only once. Dots are sorted
+/// into alternating rows, so that the moves between them are short. With `keep`, dots stay in their order. With
+/// `beziers`, lines are smooth.
 pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<PathGroup> {
     // The bits of positive numbers order as the numbers do.
     let mut found: BTreeMap<GroupKey, (Vec<PagePoint>, Vec<VectorPath>)> = BTreeMap::new();

@@ -26,7 +26,7 @@ pub fn write_svg(sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
     atomic::write(path, &encode_svg(sheet)?)
 }
 
-/// An SVG that shows frames in turn, repeatedly (SMIL). It is written frame by frame and keeps none. A viewer without
+/// An SVG that shows frames in turn, repeatedly (SMIL). Frames are written one by one and not kept. A viewer without
 /// animation shows frame 0.
 pub struct Animation<'w> {
     out: &'w mut dyn Write,
@@ -41,11 +41,11 @@ impl<'w> Animation<'w> {
         Self { out, frames, seconds, written: 0 }
     }
 
-    /// Writes the next frame. The first frame gives page, metadata and background of all; the last one ends the file.
+    /// Writes the next frame. The first frame determines page, metadata and background of all frames; the last frame
+    /// ends the file.
     ///
     /// # Errors
-    /// Errors of the writer, as [`OutputError::Io`] of the file `path`, of a picture that cannot be encoded, and
-    /// [`OutputError::NotFinite`].
+    /// [`OutputError::Io`] of the file `path`, the errors of encoding the picture, and [`OutputError::NotFinite`].
     pub fn frame(&mut self, sheet: &VectorPage, path: &Path) -> Result<(), OutputError> {
         check_finite(sheet.marks)?;
         let (i, all) = (self.written, self.frames);

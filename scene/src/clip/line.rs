@@ -1,20 +1,20 @@
-//! The parts of lines that clip planes leave.
+//! The parts of lines that clip planes keep.
 
 use super::ClipPlanes;
 use glam::DVec3;
 
-/// The part of a straight line that planes leave.
+/// The part of a straight line that planes keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClippedRange {
     /// The range of the line's parameter.
     pub range: [f64; 2],
-    /// The plane at which it begins, by its place in the list; none if it begins where the whole range does.
+    /// The index of the plane at which the part begins; none if no plane cuts the line's beginning.
     pub entry: Option<usize>,
-    /// The plane at which it ends; none if it ends where the whole range does.
+    /// The index of the plane at which the part ends; none if no plane cuts the line's end.
     pub exit: Option<usize>,
 }
 
-/// The parts of a polyline that planes leave.
+/// The parts of a polyline that planes keep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClippedParts<V> {
     /// The line is not cut.
@@ -24,7 +24,7 @@ pub enum ClippedParts<V> {
 }
 
 impl ClipPlanes {
-    /// The part of origin + t·along in index space that is kept, t in a closed range; none if all of it is cut away.
+    /// Returns the kept part of origin + t·along in index space, t in a closed range; none if all of it is cut away.
     pub fn kept(&self, [origin, along]: [DVec3; 2], range: [f64; 2]) -> Option<ClippedRange> {
         let mut kept = ClippedRange { range, entry: None, exit: None };
         for (i, plane) in self.0.iter().enumerate() {
@@ -86,7 +86,7 @@ impl ClipPlanes {
         ClippedParts::Parts(parts)
     }
 
-    /// The kept shares of the way between two places in world space; none where there is no way.
+    /// The kept shares of a segment in world space; none if nothing is kept, or only the point at a cut.
     pub fn segment(&self, ends: [DVec3; 2]) -> Option<[f64; 2]> {
         let mut kept = [0.0f64, 1.0f64];
         for plane in &self.0 {

@@ -9,7 +9,7 @@ pub use plane::ClipPlane;
 use glam::DVec3;
 use serde::Serialize;
 
-/// Clip planes. What lies on no plane's cut side is kept, which is a convex region.
+/// Clip planes. The kept region lies on no plane's cut side, and is convex.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct ClipPlanes(pub Vec<ClipPlane>);

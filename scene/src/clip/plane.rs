@@ -17,7 +17,7 @@ pub struct ClipPlane {
     pub index_normal: DVec3,
     /// m·p of the places p on the plane.
     pub index_offset: f64,
-    /// The cap that cuts show, by its place among the caps of the picture; none: cuts show what is cut.
+    /// The cap that cuts show, by its index among the caps of the picture; none: cuts show the volume itself.
     pub cap: Option<usize>,
 }
 
@@ -54,19 +54,19 @@ impl ClipPlane {
         Self { index_normal: grid.axes().transpose() * self.normal, index_offset, ..self.clone() }
     }
 
-    /// m·p − m·q for a place p and the places q on the plane, in index space. Above 0 is cut away.
+    /// m·p − m·q for a place p and the places q on the plane, in index space. It is above 0 on the cut side.
     #[inline]
     pub fn beyond(&self, index: DVec3) -> f64 {
         dot(self.index_normal, index) - self.index_offset
     }
 
-    /// The distance of a place in world space from the plane. Above 0 is cut away.
+    /// The signed distance of a place from the plane, in world units. It is above 0 on the cut side.
     #[inline]
     pub fn beyond_in_world(&self, world: DVec3) -> f64 {
         dot(self.normal, world) - self.offset
     }
 
-    /// Whether the plane cuts a place away that lies in a grid's box.
+    /// Whether the plane cuts away a part of a grid's box.
     ///
     /// Rounded products and sums are monotonic in each coordinate. So the corners of the box bound every place in it,
     /// to the last bit.

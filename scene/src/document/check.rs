@@ -1,4 +1,4 @@
-//! Walking a document against the description of its tables, collecting every fault ([SCN-4]).
+//! The walk over a document that checks it against the description of its tables ([SCN-4]).
 
 use super::describe::{Head, Key, Later, Shape, Table};
 use super::fault::{Fault, Problem};
@@ -10,15 +10,15 @@ use std::collections::BTreeSet;
 use std::ops::Bound;
 use std::path::{Path, PathBuf};
 
-/// The most faults of a scene that are told one by one: more than anyone reads.
+/// The most faults of a scene that are reported one by one.
 const MOST_FAULTS: usize = 100;
 
-/// The state of a walk: where it is, and what it found.
+/// The state of a walk: its position, and its findings.
 pub(crate) struct Check {
     file: PathBuf,
     folder: PathBuf,
     path: String,
-    /// The faults that are told: the first [`MOST_FAULTS`].
+    /// The reported faults: the first [`MOST_FAULTS`].
     faults: Vec<Fault>,
     /// The number of further faults.
     untold: usize,
@@ -42,7 +42,7 @@ impl Check {
         }
     }
 
-    /// Ends the walk. The number of faults that are not told is a fault of its own.
+    /// Ends the walk. The number of faults that are not reported is a fault of its own.
     pub(crate) fn done(mut self) -> (Given, Vec<Fault>) {
         if self.untold > 0 {
             let problem = Problem::Further { count: self.untold };
@@ -57,12 +57,12 @@ impl Check {
         &self.path
     }
 
-    /// A key of the table that the walk is at, or of a table in it (`nodes[2].style`), from the top.
+    /// The full key, from the top, of a key in the present table, or in a table inside it (`nodes[2].style`).
     pub(crate) fn inner(&self, tail: &str) -> String {
         if self.path.is_empty() { tail.to_owned() } else { format!("{}.{tail}", self.path) }
     }
 
-    /// A key of the table that the walk is at, from the top, in quotes where it must be.
+    /// The full key, from the top, of a key in the present table, with quotes where TOML needs them.
     fn key_of(&self, name: &str) -> String {
         self.inner(&out::key(name))
     }
@@ -100,7 +100,7 @@ impl Check {
         self.given.insert(self.path.clone(), place.clone());
     }
 
-    /// Forgets a table that was put into the document and that the scene did not say.
+    /// Forgets a table that was added to the document and that the scene does not have.
     pub(crate) fn forget_chosen(&mut self, key: &str) {
         if self.given.place(key) == Some(&Place::Chosen) {
             self.given.remove(key);
@@ -117,7 +117,7 @@ impl Check {
         self.given.contains(&self.inner(tail))
     }
 
-    /// Whether nothing was wrong so far with these keys of the table that the walk is at, and with what is in them.
+    /// Whether no fault was found so far in these keys of the present table, and in their contents.
     pub(crate) fn sound(&self, names: &[&str]) -> bool {
         names.iter().all(|name| {
             let key = self.inner(name);
@@ -138,7 +138,7 @@ impl Check {
         self.fault_by(key, place, || problem);
     }
 
-    /// Reports a fault that is made only if it is told.
+    /// Reports a fault. `problem` is called only if the fault is reported one by one.
     fn fault_by(&mut self, key: String, place: &Place, problem: impl FnOnce() -> Problem) {
         self.at_fault.insert(key.clone());
         if self.faults.len() < MOST_FAULTS {
@@ -148,21 +148,20 @@ impl Check {
         }
     }
 
-    /// Reports a fault of a key of the table that the walk is at, or of a table in it; its place is the key's, or else
+    /// Reports a fault of a key in the present table, or in a table inside it. The fault's place is the key's, or else
     /// the table's.
     pub(crate) fn fault_in(&mut self, tail: &str, problem: Problem) {
         let (key, place) = self.inner_place(tail);
         self.fault_of(key, &place, problem);
     }
 
-    /// Reports a name of something that is not there, by a key of the table that the walk is at. `known` are the names
-    /// of what is there.
+    /// Reports an unknown name that a key of the present table gives. `known` are the names that exist.
     pub(crate) fn unknown_in(&mut self, tail: &str, what: &str, name: &str, known: &[&str]) {
         let (key, place) = self.inner_place(tail);
         self.unknown_of(key, &place, what, name, known);
     }
 
-    /// Reports a name of something that is not there. `known` are the names of what is there.
+    /// Reports an unknown name. `known` are the names that exist.
     pub(crate) fn unknown_of(&mut self, key: String, place: &Place, what: &str, name: &str, known: &[&str]) {
         self.fault_by(key, place, || Problem::Reference {
             what: what.into(),
@@ -172,7 +171,7 @@ impl Check {
         });
     }
 
-    /// A key of the table that the walk is at, or of a table in it, from the top, and its place or else the table's.
+    /// The full key of [`Check::inner`], and the key's place or else the table's.
     fn inner_place(&self, tail: &str) -> (String, Place) {
         let key = self.inner(tail);
         let place = self.given.place(&key).or_else(|| self.given.place(&self.path)).cloned();
@@ -203,12 +202,12 @@ impl Check {
         std::mem::take(&mut self.styles)
     }
 
-    /// Reports a value that may not stand where it stands.
+    /// Reports a value that is not allowed at its place.
     pub(crate) fn wrong<T>(&mut self, item: &Item, expected: String) -> Option<T> {
         self.wrong_name(item, expected, None)
     }
 
-    /// Reports a value that may not stand where it stands, with the name that was probably meant. In a list the fault is
+    /// Reports a value that is not allowed at its place, with the name that was probably meant. In a list, the fault is
     /// that of the first number that is not finite, if there is one.
     pub(crate) fn wrong_name<T>(&mut self, item: &Item, expected: String, nearest: Option<String>) -> Option<T> {
         self.wrong_value(item, expected, nearest);
@@ -245,8 +244,8 @@ impl Check {
         }
     }
 
-    /// Reads a table as far as it can be read; none if it is no table. Keys at fault have their defaults: a scene with
-    /// a fault is never handed out, but what else is wrong with it must be seen.
+    /// Reads a table; none if the item is no table. Keys at fault get their defaults, so that the walk can find further
+    /// faults. A scene with a fault is never returned to the caller.
     pub(crate) fn table<S>(&mut self, table: &Table<S>, item: &Item) -> Option<S> {
         self.table_over(table, item, None)
     }
@@ -298,7 +297,7 @@ impl Check {
         Some(result)
     }
 
-    /// Reports a key that must be there and is not.
+    /// Reports a required key that is missing.
     fn missing(&mut self, name: &str, shape: &dyn Shape, place: &Place) {
         let expected = match shape.section() {
             Some(_) => format!("[{name}], {}", shape.expected()),
@@ -308,7 +307,8 @@ impl Check {
         self.fault_of(key, place, Problem::Missing { expected });
     }
 
-    /// The entries of a table that are none of its keys, if the user may name some. All others are faults.
+    /// The entries whose names are not keys of the table, if the user may name keys. If not, each such entry is a
+    /// fault.
     fn others<'a>(&mut self, head: &Head, entries: &'a Entries) -> Vec<(&'a str, &'a Entry)> {
         let is_other = |name: &str, entry: &Entry| !entry.item.takes_away() && !head.names.contains(&name);
         let others = entries.iter().map(|(name, entry)| (name.as_str(), entry));
@@ -341,7 +341,7 @@ impl Check {
         }
     }
 
-    /// The keys that give way to others. Of two that stand in each other's place the command line's stays.
+    /// The keys that others replace. If two keys exclude each other, the command line's key stays.
     fn alternatives(&mut self, head: &Head, entries: &Entries) -> BTreeSet<&'static str> {
         let mut dropped = BTreeSet::new();
         let get = |name: &str| entries.get(name).filter(|entry| !entry.item.takes_away());
@@ -387,7 +387,7 @@ fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
     rest
 }
 
-/// The fault of a key that a table does not know, with the nearest that it does.
+/// The fault of a key that a table does not have, with the nearest key of the table.
 pub(crate) fn unknown_key<'a>(
     table: &str,
     name: &str,

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 /// A field that holds the value of a key.
 pub(crate) trait Holds<T> {
-    /// The key's value; none where it has none.
+    /// The key's value, if it has one.
     fn get(&self) -> Option<T>;
     /// Takes a value.
     fn set(&mut self, value: T);
@@ -23,7 +23,7 @@ impl<T: Clone> Holds<T> for T {
     }
 }
 
-/// The field of a key without default.
+/// A field of a key without default.
 impl<T: Clone> Holds<T> for Option<T> {
     fn get(&self) -> Option<T> {
         self.clone()
@@ -64,7 +64,7 @@ impl Holds<[f64; 3]> for Option<DVec3> {
     }
 }
 
-/// Returns the value of a key that has none where the list is empty.
+/// Returns the value of a list's key; none for an empty list.
 pub(crate) fn unless_empty<T: Clone>(list: &[T]) -> Option<Vec<T>> {
     (!list.is_empty()).then(|| list.to_vec())
 }
@@ -124,8 +124,8 @@ macro_rules! keys {
 /// The struct of a table, its defaults, and its description. The keys stand in the order in which they are read,
 /// written and documented. A field has its type, its default, and its key as in [`keys!`](keys).
 ///
-/// Where one field has several keys, or none, field and keys stand apart: a line without `key` is a field alone, and a
-/// line with `key` in place of the type is a key alone.
+/// If a field has several keys, or none, field and keys stand on lines of their own. A line without `key` is a field
+/// alone, and a line with `key` in place of the type is a key alone.
 ///
 /// ```text
 /// table! {
@@ -187,7 +187,7 @@ macro_rules! table {
         }
 
         impl $table {
-            /// The description of a table with these keys and no more to say of itself.
+            /// The description of a table that consists of its keys only.
             const fn description(title: &'static str, doc: &'static str) -> $crate::document::describe::Table<Self> {
                 let keys = $crate::document::declare::keys! { $table { $($keys)+ } };
                 $crate::document::describe::Table::new(title, doc, Self::default, keys)
@@ -196,7 +196,8 @@ macro_rules! table {
     };
 }
 
-/// An enum whose values have names in scene files, which are its serialization, and their `KIND`. After `later` stand names that are not built yet.
+/// An enum whose values have names in scene files, which are its serialization, and their `KIND`. Names after `later`
+/// are not built yet.
 ///
 /// ```text
 /// choices! {

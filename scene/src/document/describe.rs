@@ -12,28 +12,29 @@ pub(crate) struct Table<S: 'static> {
     pub(crate) title: &'static str,
     /// One or two sentences.
     pub(crate) doc: &'static str,
-    /// The table as it is before its first key: every default.
+    /// Makes the table with every default.
     pub(crate) empty: fn() -> S,
-    /// In the order in which they are read, written and documented.
+    /// The keys, in the order in which they are read, written and documented.
     pub(crate) keys: &'static [Key<S>],
     /// Keys that the user names, if the table has such.
     pub(crate) open: Option<&'static dyn Named<S>>,
     /// Keys of the format that this version does not have.
     pub(crate) later: &'static [Later],
-    /// Keys that stand in each other's place.
+    /// Keys that exclude each other.
     pub(crate) instead: &'static [Instead],
     /// Checks the keys together.
     pub(crate) check: fn(&S, &mut Check),
 }
 
 impl<S> Table<S> {
-    /// A table with these keys and no more to say of itself.
+    /// A table that consists of its keys only.
     pub(crate) const fn new(title: &'static str, doc: &'static str, empty: fn() -> S, keys: &'static [Key<S>]) -> Self {
         Self { title, doc, empty, keys, open: None, later: &[], instead: &[], check: |_, _| {} }
     }
 }
 
-/// A [`Table`] without its struct, as far as a walk asks for it. Code over it is compiled once for all tables.
+/// The parts of a [`Table`] that a walk needs and that do not depend on the struct. Code over `Head` is compiled once
+/// for all tables.
 pub(crate) struct Head {
     pub(crate) title: &'static str,
     /// The names of the keys.
@@ -73,20 +74,20 @@ pub(crate) struct Key<S: 'static> {
     pub(crate) name: &'static str,
     /// One or two sentences: the first paragraph.
     pub(crate) doc: &'static str,
-    /// The rule that has it, such as `RAY-5`; empty for none.
+    /// The tag of the key's rule, such as `RAY-5`; empty for none.
     pub(crate) tag: &'static str,
-    /// Default in words, where it is no value that could be written.
+    /// The default in words, if it cannot be written as a value.
     pub(crate) absent: &'static str,
-    /// Whether the table is wrong without it.
+    /// Whether the table must have the key.
     pub(crate) required: bool,
-    /// Quantities that the key can make samples or passes need ([PLAN-1]); whether it does depends on its neighbours.
+    /// Quantities that samples or passes may need because of the key ([PLAN-1]). Whether they do depends on other keys.
     pub(crate) needs: &'static [Quantity],
-    /// How it is read and written.
+    /// Reads and writes the key's value.
     pub(crate) field: &'static dyn KeyAccess<S>,
 }
 
 impl<S> Key<S> {
-    /// A key with a default that can be written, and which needs nothing.
+    /// A key whose default can be written, and which needs no quantity.
     pub(crate) const fn new(
         name: &'static str,
         tag: &'static str,
@@ -123,14 +124,14 @@ pub(crate) struct Later {
     pub(crate) tag: &'static str,
 }
 
-/// Keys that exclude each other: `one` in place of all of `others`. What the command line says drives the other out;
-/// both in the file, or both on the command line, are a fault.
+/// Keys that exclude each other: `one` in place of all of `others`. Keys of the command line replace keys of the file.
+/// Both in the file, or both on the command line, are a fault.
 pub(crate) struct Instead {
     pub(crate) one: &'static str,
     pub(crate) others: &'static [&'static str],
 }
 
-/// A type of value: what may stand after `key =`.
+/// A type of values that may stand after `key =`.
 pub(crate) trait Shape: Sync {
     /// Returns the values that may stand there, for the third line of a message.
     fn expected(&self) -> String;
@@ -138,7 +139,7 @@ pub(crate) trait Shape: Sync {
     /// Returns the values that may stand there as JSON Schema.
     fn schema(&self) -> serde_json::Value;
 
-    /// Its names with what each means, if it is one of several names.
+    /// The names with their meanings, if the value is one of several names.
     fn options(&self) -> Vec<(&'static str, String)> {
         Vec::new()
     }
@@ -164,10 +165,10 @@ pub(crate) trait Kind: Shape {
     /// The Rust type of the value.
     type Of;
 
-    /// Reads an item; none where it is at fault, which has then been said.
+    /// Reads an item. None if the item is at fault; the fault is then already reported.
     fn read(&self, item: &Item, check: &mut Check) -> Option<Self::Of>;
 
-    /// Reads an item that overrides lead into, over what a preset supplied.
+    /// Reads an item that overrides lead into, over the value that a preset supplied.
     fn read_over(&self, item: &Item, supplied: Self::Of, check: &mut Check) -> Option<Self::Of> {
         let _ = supplied;
         self.read(item, check)
@@ -177,19 +178,19 @@ pub(crate) trait Kind: Shape {
     fn write(&self, value: &Self::Of) -> Out;
 }
 
-/// A key's way into a table's struct and back, whatever type lies between.
+/// Access to a key's value in a table's struct, for a value of any type.
 pub(crate) trait KeyAccess<S>: Sync {
-    /// Reads an item into the struct, or says what is wrong with it.
+    /// Reads an item into the struct, or reports the item's fault.
     fn read(&self, item: &Item, into: &mut S, check: &mut Check);
-    /// The key's value; none where it has none.
+    /// The key's value, if it has one.
     fn write(&self, from: &S) -> Option<Out>;
-    /// Puts the key's value, where it has one, into another struct.
+    /// Copies the key's value, if it has one, to another struct.
     fn copy(&self, from: &S, into: &mut S);
     /// Returns the type of value.
     fn shape(&self) -> &dyn Shape;
 }
 
-/// The way of one key: its kind, and the place in the struct.
+/// Access to one key: its kind, and its field in the struct.
 pub(crate) struct Slot<S, K: Kind> {
     pub(crate) kind: K,
     pub(crate) get: fn(&S) -> Option<K::Of>,
@@ -224,15 +225,15 @@ impl<S, K: Kind> KeyAccess<S> for Slot<S, K> {
 
 /// The keys of a table that the user names.
 pub(crate) trait Named<S>: Sync {
-    /// Reads one of them.
+    /// Reads one key.
     fn read(&self, name: &str, item: &Item, into: &mut S, check: &mut Check);
-    /// All of them.
+    /// All keys with their values.
     fn write(&self, from: &S) -> Vec<(String, Out)>;
-    /// Adds all of them to another struct.
+    /// Adds all keys to another struct.
     fn copy(&self, from: &S, into: &mut S);
-    /// Returns the type of their values.
+    /// Returns the type of the keys' values.
     fn shape(&self) -> &dyn Shape;
-    /// Returns the documentation of such a name.
+    /// Returns the documentation of these keys.
     fn doc(&self) -> &'static str;
     /// Returns the most names that a table can have.
     fn most(&self) -> usize;
@@ -241,7 +242,7 @@ pub(crate) trait Named<S>: Sync {
 /// Values with the names that the user gave them.
 pub(crate) type NamedValues<K> = Vec<(String, <K as Kind>::Of)>;
 
-/// The way of the keys that the user names.
+/// Access to the keys that the user names.
 pub(crate) struct Names<S, K: Kind> {
     pub(crate) kind: K,
     pub(crate) doc: &'static str,
@@ -279,7 +280,7 @@ impl<S, K: Kind> Named<S> for Names<S, K> {
     }
 }
 
-/// A [`Table`] without its struct: what schema and documentation read.
+/// A [`Table`] without its struct, for schema and documentation.
 pub(crate) struct Section {
     pub(crate) title: &'static str,
     pub(crate) doc: &'static str,
@@ -292,7 +293,7 @@ pub(crate) struct Section {
 pub(crate) struct OpenKeys {
     pub(crate) doc: &'static str,
     pub(crate) shape: &'static dyn Shape,
-    /// The most of them.
+    /// The most keys that the user may name.
     pub(crate) most: usize,
 }
 

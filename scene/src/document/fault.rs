@@ -43,7 +43,7 @@ pub enum Problem {
     },
     /// A table, key or value of the format that this version does not have yet.
     NotBuilt {
-        /// It, in words.
+        /// The table, key or value, in words.
         what: String,
     },
     /// A value of the wrong type, unit, range or name.
@@ -62,7 +62,7 @@ pub enum Problem {
         /// The most that may stand there.
         most: usize,
     },
-    /// A name of something that is not there.
+    /// A name of something that does not exist.
     Reference {
         /// Kind of thing that it should name, such as `style`.
         what: String,
@@ -73,7 +73,7 @@ pub enum Problem {
         /// All that is known.
         known: Vec<String>,
     },
-    /// A key that must be there and is not.
+    /// A required key that is missing.
     Missing {
         /// The values that may stand there, in words.
         expected: String,
@@ -85,19 +85,19 @@ pub enum Problem {
         /// Advice.
         remedy: String,
     },
-    /// A file or folder that the scene names and that is not there.
+    /// A file or folder that the scene names and that does not exist.
     NoFile {
         /// The path.
         path: PathBuf,
         /// Folders that were searched, or advice.
         remedy: String,
     },
-    /// Faults that are not told one by one.
+    /// Faults that are not reported one by one.
     Further {
-        /// Their number.
+        /// The number of these faults.
         count: usize,
     },
-    /// An override that leads nowhere.
+    /// An override that cannot be applied.
     Override {
         /// The mistake, in words.
         what: String,

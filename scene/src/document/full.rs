@@ -3,7 +3,7 @@
 use super::describe::Table;
 use super::out::{self, Out};
 
-/// The keys, such as `contours.kappa`, whose values are not those of another document, and the tables that have them.
+/// The keys, such as `contours.kappa`, whose values differ from another document's, and the tables with such keys.
 pub(crate) fn differences<S>(root: &Table<S>, from: &S, other: &S) -> Vec<String> {
     let mut keys = Vec::new();
     for key in root.keys {
@@ -25,7 +25,7 @@ pub(crate) fn differences<S>(root: &Table<S>, from: &S, other: &S) -> Vec<String
     keys
 }
 
-/// The text of a document with every key, each value changed on its way.
+/// The text of a document with every key. `change` is applied to each value.
 pub(crate) fn write<S>(root: &Table<S>, from: &S, change: fn(Out) -> Out) -> String {
     let mut top = String::new();
     let mut tables = String::new();

@@ -11,7 +11,8 @@ use toml::de::{DeTable, DeValue};
 pub(crate) struct Item {
     pub(crate) value: Value,
     pub(crate) place: Place,
-    /// Whether it is a table that overrides lead into and the file lacks: what they do not name stays as it is without it.
+    /// Whether the item is a table that overrides lead into and that the file lacks. Keys that the overrides do not
+    /// name stay as without the table.
     pub(crate) is_way: bool,
 }
 
@@ -20,13 +21,13 @@ pub(crate) struct Item {
 pub(crate) enum Value {
     Bool(bool),
     Whole(i64),
-    /// May be NaN or infinite; so is what overflows.
+    /// A number, which may be NaN or infinite. Numbers that overflow are infinite.
     Number(f64),
     Text(String),
     Date(String),
     List(Vec<Item>),
     Table(Entries),
-    /// An item that is to be absent, whatever a preset supplies.
+    /// An item that must be absent, even if a preset supplies it.
     Off,
 }
 
@@ -41,7 +42,7 @@ pub(crate) struct Entry {
 }
 
 impl Item {
-    /// Whether it says only what is not to be there.
+    /// Whether the item only removes things.
     pub(crate) fn takes_away(&self) -> bool {
         match &self.value {
             Value::Off => true,
@@ -50,7 +51,7 @@ impl Item {
         }
     }
 
-    /// Reads a whole document. What is no TOML is reported with its place, every fault of it.
+    /// Reads a whole document. Every fault of the TOML is reported with its place.
     pub(crate) fn document(text: &str) -> Result<Self, Vec<(Place, Problem)>> {
         let lines = Lines::new(text);
         let (table, errors) = DeTable::parse_recoverable(text);
@@ -74,7 +75,7 @@ impl Item {
         }
     }
 
-    /// The finite number that the item is; a whole number is one too.
+    /// The item as a finite number, which may be a whole one; none for any other item.
     pub(crate) fn number(&self) -> Option<f64> {
         match self.value {
             Value::Whole(n) => Some(n as f64),
@@ -92,7 +93,7 @@ impl Item {
         }
     }
 
-    /// The text that the item is.
+    /// The item as text; none for any other item.
     pub(crate) fn text(&self) -> Option<&str> {
         match &self.value {
             Value::Text(text) => Some(text),
@@ -100,7 +101,7 @@ impl Item {
         }
     }
 
-    /// The list that the item is.
+    /// The item as a list; none for any other item.
     pub(crate) fn list(&self) -> Option<&[Self]> {
         match &self.value {
             Value::List(items) => Some(items),

@@ -1,4 +1,4 @@
-//! A value on its way out of a scene: to TOML (`--full`) and to JSON (defaults of the schema).
+//! Values to be written: as TOML (`--full`) and as JSON (defaults of the schema).
 
 use crate::unprintable::is_unprintable;
 use std::fmt::Write;
@@ -72,13 +72,13 @@ fn number(x: f64) -> String {
     if x == 0.0 || (1e-5..1e15).contains(&x.abs()) { x.to_string() } else { format!("{x:e}") }
 }
 
-/// A key, in quotes where it must be.
+/// A key, in quotes where TOML needs them.
 pub(crate) fn key(name: &str) -> String {
     let bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
     if bare { name.to_owned() } else { quoted(name) }
 }
 
-/// A basic string of TOML. What a terminal must not get is escaped, as TOML has it.
+/// A basic string of TOML. Characters that could disturb a terminal are escaped.
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {

@@ -17,17 +17,17 @@ pub enum Place {
     },
     /// On the command line: what follows `--set`. All values of an override share it.
     Set(Arc<str>),
-    /// Nowhere: it was found in the volume that the scene is for.
+    /// Chosen for the volume that the scene is for, and written nowhere.
     Chosen,
 }
 
 impl Place {
-    /// The line of the scene file; none for what the command line said.
+    /// The line of the scene file; none for a key of the command line.
     pub fn line(&self) -> Option<usize> {
         self.in_file().map(|[line, _]| line)
     }
 
-    /// The line and the column in the scene file; none for what the command line said.
+    /// The line and the column in the scene file; none for a key of the command line.
     pub(crate) fn in_file(&self) -> Option<[usize; 2]> {
         match self {
             Self::File { line, column } => Some([*line, *column]),
@@ -74,7 +74,7 @@ impl<'a> Lines<'a> {
         self.before[block] + characters(&self.text.as_bytes()[block * BLOCK..byte])
     }
 
-    /// The place of a byte; what lies past the end or inside a character counts as just before it.
+    /// The place of a byte. Bytes inside a character have its place, and bytes past the end the place of the end.
     pub(crate) fn place(&self, byte: usize) -> Place {
         let byte = (0..=byte.min(self.text.len())).rev().find(|&b| self.text.is_char_boundary(b)).unwrap_or(0);
         let line = self.starts.partition_point(|&start| start <= byte);
@@ -89,8 +89,7 @@ fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|&&byte| byte & 0b1100_0000 != 0b1000_0000).count()
 }
 
-/// The keys that a scene said itself, with their places. It is not part of what the scene means: two scenes that
-/// differ only here are equal.
+/// The keys that a scene gives itself, with their places. Scenes that differ only in these keys and places are equal.
 #[derive(Clone, Debug, Default)]
 pub struct Given {
     file: PathBuf,
@@ -118,7 +117,7 @@ impl Given {
         self.place(key).is_some()
     }
 
-    /// Place at which the scene said a key.
+    /// The place at which the scene gives a key.
     pub fn place(&self, key: &str) -> Option<&Place> {
         let moved = self.moved.iter().find_map(|(table, place)| Some((table, inside(key, place)?)));
         match moved {
@@ -127,13 +126,13 @@ impl Given {
         }
     }
 
-    /// The line of the scene file that said it; none for a default and for what the command line said.
+    /// The line of the scene file that gives a key; none for a default, and for a key of the command line.
     pub fn line(&self, key: &str) -> Option<usize> {
         self.place(key).and_then(Place::line)
     }
 
-    /// Returns the keys with those of some tables in the place of others: each pair is a table and the place that its keys take.
-    /// Keys that stood there are left out.
+    /// Returns the keys after some tables have replaced others. Each pair is a table and the key that the table moves
+    /// to. Keys that stood there before are left out.
     pub(crate) fn with_tables(&self, moved: Vec<(String, &'static str)>) -> Self {
         Self { moved, ..self.clone() }
     }
@@ -143,14 +142,14 @@ impl Given {
         position(&self.file, self.place(key), key)
     }
 
-    /// Forgets what the file said, for a scene that nobody wrote. What the command line said stays. Of `chosen`, keys
-    /// and tables that are not as by default, [`Given::is_chosen`] knows.
+    /// Forgets the keys of the file, for a scene that the program composed; keys of the command line stay. `chosen` are
+    /// the keys and tables that differ from their defaults, for [`Given::is_chosen`].
     pub fn keep_overrides(&mut self, chosen: impl IntoIterator<Item = String>) {
         Arc::make_mut(&mut self.keys).retain(|_, place| matches!(place, Place::Set(_)));
         self.chosen.extend(chosen);
     }
 
-    /// Whether a key or table of a scene that nobody wrote was chosen for its volume.
+    /// Whether a key or table of a composed scene was chosen for its volume.
     pub fn is_chosen(&self, key: &str) -> bool {
         self.chosen.contains(key)
     }
@@ -164,7 +163,7 @@ impl Given {
     }
 }
 
-/// The rest of a key that is a table's or lies in the table; none for any other key.
+/// The rest of a key behind a table's key; none for a key outside the table.
 fn inside<'a>(key: &'a str, table: &str) -> Option<&'a str> {
     key.strip_prefix(table).filter(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
 }

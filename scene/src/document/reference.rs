@@ -42,7 +42,7 @@ fn write(page: &mut String, path: &str, section: &Section) {
     }
 }
 
-/// Whether a table inside the table at `outer` is described at the top, with the same keys.
+/// Whether a table inside the table at `outer` has the keys of a table at the top, where the keys are described.
 pub(crate) fn is_of_the_top(outer: &str, table: &Section) -> bool {
     !outer.is_empty() && table.title.starts_with('[') && !table.title.contains('.')
 }

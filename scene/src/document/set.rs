@@ -7,21 +7,21 @@ use super::item::{Entry, Item, Value};
 use super::place::Place;
 use std::path::PathBuf;
 
-/// Keys of a scene with the values that go over those of its file, in the order in which they are applied.
+/// Keys of a scene with values that replace those of its file, in the order in which they are applied.
 ///
 /// A key is given from the top: `camera.fov`, `transfer.nodes[2].opacity` or `transfer.nodes.2.opacity`. A value is
 /// TOML, or else a bare text, so that `camera.projection=orthographic` needs no quotes. The bare value `off` removes
-/// what the key names: a table, one of several tables, or a single key, which then has its default.
+/// the named table or key. A removed key has its default.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides(Vec<(String, String)>);
 
 impl Overrides {
-    /// Adds one, which goes over those before it.
+    /// Adds an override, which is applied after the earlier ones.
     pub fn push(&mut self, key: impl Into<String>, value: impl Into<String>) {
         self.0.push((key.into(), value.into()));
     }
 
-    /// Adds one as the command line has it: `key=value`.
+    /// Adds an override in the form of the command line: `key=value`.
     ///
     /// # Errors
     /// A text without `=`.
@@ -47,7 +47,7 @@ impl Overrides {
         }
     }
 
-    /// Changes a document; what leads nowhere is a fault.
+    /// Changes a document. An override whose key cannot be reached or removed is a fault.
     pub(crate) fn apply<S>(&self, root: &'static Table<S>, document: &mut Item, check: &mut Check) {
         for (key, text) in &self.0 {
             let place = Place::Set(format!("{key}={text}").into());
@@ -117,7 +117,7 @@ fn no_key(key: &str) -> Problem {
     }
 }
 
-/// Puts an item where the steps lead, or takes away what is there. Tables on the way are made.
+/// Puts an item where the steps lead, or removes the item there. Tables on the way are made.
 fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> Result<(), Problem> {
     let Some((step, rest)) = steps.split_first() else {
         // The walk ends at the last step but one; only a key without steps comes here, and there is none.
@@ -168,7 +168,7 @@ fn put(item: &mut Item, steps: &[String], new: Option<Item>, place: &Place) -> R
     }
 }
 
-/// Takes away a list of tables at the top, such as `[[pen]]`, if its last table was taken away.
+/// Removes a list of tables at the top, such as `[[pen]]`, if its last table was removed.
 fn take_empty_list(document: &mut Item, steps: &[String]) {
     if let (Value::Table(entries), [list, _]) = (&mut document.value, steps)
         && let Some(entry) = entries.get_mut(list)
@@ -178,7 +178,7 @@ fn take_empty_list(document: &mut Item, steps: &[String]) {
     }
 }
 
-/// Whether the format has a key: what is taken away leaves no trace in the document that could be checked.
+/// Whether the format has a key. Removed items leave nothing in the document that the walk could check.
 fn is_known(root: Section, steps: &[String]) -> Result<(), Problem> {
     let mut section = Some(root);
     for step in steps {

@@ -14,8 +14,8 @@ const VARIABLE: &str = "DRYPOINT_DATA";
 /// The folder of volumes beside a source tree, from its root. Only programs that run there find it.
 const BESIDE_THE_SOURCE: &str = "../shared/data";
 
-/// The folders in which a volume is looked for that is not where the scene says: those of the environment variable
-/// `DRYPOINT_DATA`, separated as in `PATH`; without the variable `../shared/data`, if it is there.
+/// The folders to search for a volume that is not at the scene's path: those of the environment variable
+/// `DRYPOINT_DATA`, separated as in `PATH`. The default is `../shared/data`, if it exists.
 pub fn data_folders() -> Vec<PathBuf> {
     match std::env::var_os(VARIABLE) {
         Some(list) => std::env::split_paths(&list).filter(|folder| !folder.as_os_str().is_empty()).collect(),

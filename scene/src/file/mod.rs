@@ -34,26 +34,26 @@ use crate::tables::root::ROOT;
 use crate::tables::{Scene, Transfer, TransferKind};
 use std::path::Path;
 
-/// The scene with every default filled in, as the text of a scene file ([SCN-3]). Reading it gives the scene again; a
-/// scene that was not read from a file may have colours between those that a file can say, which are rounded. Relative
-/// paths are those of the scene, from the working directory.
+/// Returns the scene with every default filled in, as the text of a scene file ([SCN-3]). Reading the text gives the
+/// scene again. Only colours of a scene that was not read from a file may be rounded. Relative paths start at the
+/// working directory.
 pub fn write_full(scene: &Scene) -> String {
     full::write(&ROOT, scene, |out| out)
 }
 
-/// The text of [`write_full`] with every path cut to its last name, so that the same scene gives the same text in
-/// every folder and on every machine: what a picture's metadata holds a hash of ([IO-2]).
+/// Returns the text of [`write_full`] with every path cut to its last name. The same scene gives the same text in every
+/// folder and on every machine. A picture's metadata holds the text's hash ([IO-2]).
 pub fn identity(scene: &Scene) -> String {
     full::write(&ROOT, scene, full::without_folders)
 }
 
-/// The keys, such as `contours.kappa`, whose values are not those of another scene, and the tables that have them.
+/// Returns the keys, such as `contours.kappa`, whose values differ from another scene's, and the tables with such keys.
 pub fn differences(scene: &Scene, other: &Scene) -> Vec<String> {
     full::differences(&ROOT, scene, other)
 }
 
-/// The JSON Schema (2020-12) of a scene file, with the documentation and the default of every key. What is not built
-/// yet is not in it.
+/// The JSON Schema (2020-12) of a scene file, with the documentation and the default of every key. Keys that are not
+/// built yet are left out.
 pub fn schema() -> serde_json::Value {
     schema::document("Drypoint scene", &ROOT.section())
 }
@@ -65,8 +65,8 @@ pub fn reference_markdown() -> String {
 }
 
 /// Reads a scene from the text of a file. Relative paths are resolved against the folder of `file_name`, those of
-/// overrides against the working directory. Of the files that the scene names only the folder of a theme is looked at, for
-/// the names of its styles.
+/// overrides against the working directory. No file that the scene names is opened; only a theme's folder is listed,
+/// for the names of styles.
 ///
 /// # Errors
 /// Every fault of the text and of the overrides, with its place ([SCN-4]).

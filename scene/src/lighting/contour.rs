@@ -17,7 +17,7 @@ choices! {
 }
 
 impl ContourRule {
-    /// c for light and eye with this L·v.
+    /// Returns c for light and eye with the given L·v.
     pub fn factor(self, l_dot_v: f64) -> f64 {
         match self {
             Self::Exact => (2.0 + 2.0 * l_dot_v).max(0.0).sqrt(),
@@ -25,7 +25,7 @@ impl ContourRule {
         }
     }
 
-    /// The angle in degrees by which contours with a factor c miss the silhouette, where light and eye have this L·v.
+    /// Returns the angle, in degrees, between the silhouette and contours with the given factor c and L·v.
     ///
     /// With c₁ = ‖L + v‖ the contour's normals are perpendicular to c·Ĥ − L, which points along c·v + (c − c₁)·L. The
     /// error is the angle between this direction and v.

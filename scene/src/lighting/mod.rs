@@ -34,13 +34,13 @@ pub struct LightingFile {
 }
 
 impl LightingTable {
-    /// A table of cells, row by row from the top; none if these are not width × height, or if there is no cell.
+    /// Makes a table of cells, row by row from the top; none if their number is not width × height, or is 0.
     pub fn new(width: usize, height: usize, cells: Vec<LightingCell>) -> Option<Self> {
         let fits = !cells.is_empty() && width.checked_mul(height) == Some(cells.len());
         fits.then_some(Self { width, height, cells })
     }
 
-    /// A table of S × S cells by a function of (N·L, N·Ĥ), S at least 2.
+    /// Samples a function of (N·L, N·Ĥ) on a table of S × S cells, S at least 2.
     pub(crate) fn of_function(side: usize, reflectance: impl Fn(f64, f64) -> LightingCell) -> Self {
         let at = |i: usize| 2.0 * i as f64 / (side - 1) as f64 - 1.0;
         let row = |j: usize| {

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 pub struct Dot {
     /// Centre on the page, in mm, y down.
     pub at: DVec2,
-    /// The point in the world that it stands for.
+    /// The point in the world that the dot stands for.
     pub world: DVec3,
-    /// The centre, in mm on the page.
+    /// The radius, in mm on the page.
     pub radius: f64,
     /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,

@@ -1,17 +1,17 @@
-//! A line with as few points as its steps allow: what rounding has put to the side of it is no bend.
+//! Simplification of lines: points that leave the line only by rounding are left out.
 
 use glam::DVec2;
 
-/// The largest distance, in mm, of a point left out from the line that is kept. The point and the ends of the line kept
-/// are each up to 0.00071 off by their steps of 0.001, so a step alone makes no bend.
+/// The largest distance, in mm, of a left-out point from the kept line. The point and the ends of the kept line are
+/// each up to 0.00071 off by rounding to steps of 0.001, so rounding alone makes no bend.
 const PLACE: f64 = 0.0015;
 
-/// The largest error, in mm, of half the width at such a point: twice half a step of 0.005, for the same reason. A dot
-/// at 2400 dpi is 0.0106.
+/// The largest error, in mm, of half the width at a left-out point: two rounding errors of half a step of 0.005. For
+/// comparison, a dot at 2400 dpi is 0.0106.
 const RADIUS: f64 = 0.005;
 
-/// The line without the points that lie on it but for steps, with half a width that is linear between two others but for
-/// steps; its ends are kept.
+/// Returns the line without the points whose position and half width are linear between two others, up to [`PLACE`] and
+/// [`RADIUS`]. The line's ends are kept.
 pub(super) fn fewer(line: &[(DVec2, f64)]) -> Vec<(DVec2, f64)> {
     let mut kept = vec![false; line.len()];
     let mut open = match line.len() {

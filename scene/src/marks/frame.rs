@@ -4,8 +4,9 @@ use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
 
 impl Marks {
-    /// Clips the marks to the frame. A dot stays if all of its disc is inside, a line as far as its centre line is half
-    /// its width inside. A line that leaves and comes back becomes several, which keep their `t`.
+    /// Clips the marks to the frame. A dot stays if all of its disc is inside. A line stays where its middle is at
+    /// least half its width inside. A line that leaves and comes back becomes several lines, whose vertices keep their
+    /// `t`.
     pub fn keep_inside(&mut self) {
         let page = self.page;
         for layer in &mut self.layers {
@@ -16,8 +17,8 @@ impl Marks {
     }
 }
 
-/// The largest distance, in mm, of a place outside the frame that still counts as inside: less than half a step of a
-/// place.
+/// The largest distance, in mm, of a place outside the frame that still counts as inside. It is less than half a step
+/// of places.
 const SLACK: f64 = 1e-9;
 
 fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
@@ -53,8 +54,8 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
     parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
 }
 
-/// The interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear along the
-/// segment, so each side of the frame leaves one interval.
+/// Returns the interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear
+/// along the segment, so each side of the frame keeps one interval.
 fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
     let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
     clipped([

@@ -1,13 +1,13 @@
 //! One side of a line without the loops that it makes inside a bend ([HATCH-21]).
 //!
-//! Let a bend have a smaller radius than half the width. Its side then runs back and crosses itself. The loop is no
+//! At a bend with a smaller radius than half the width, the inner side runs back and crosses itself. The loop is no
 //! part of the outline: all of it lies within half a width of the line.
 
 use crate::math;
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// A place beside a line, and the number of the point of the line that it belongs to.
+/// A place beside a line, and the index of the line's point that the place belongs to.
 pub(super) type OffsetPoint = (DVec2, usize);
 
 /// The places beside a line, on its left, without the loops of bends to the left. The sides of a bend of less than a

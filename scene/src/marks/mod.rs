@@ -34,7 +34,7 @@ pub fn mark_counts(layers: &[Layer]) -> [usize; 2] {
     [sum(|layer| layer.dots.len()), sum(|layer| layer.lines.len())]
 }
 
-/// All that is drawn on a page.
+/// The dots and lines on a page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marks {
     /// The paper.

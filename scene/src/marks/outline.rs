@@ -12,12 +12,13 @@ const OFF: f64 = 0.001;
 /// The cosine of a bend by which a line turns back on itself.
 const TURNED_BACK: f64 = -1.0 + 1e-9;
 
-/// The outlines, for the nonzero rule, of a line with the given half width at each point, linear between the points.
+/// Returns the outlines, for the nonzero rule, of a line. The half width is given at each point, and linear between the
+/// points.
 ///
 /// On either side the outline keeps the distance of the half width from each segment, at right angles to it. Outside a
 /// bend it goes round the point; inside a bend it is cut where both sides meet. An outline does not cross itself if its
 /// line does not come back to itself and all bends have a larger radius than half the width. The sides of a sharper
-/// bend may not meet, for example at the end of a short line. The outline then goes through the point itself, and
+/// bend may not meet, for example at the end of a short line. The outline then goes through the bend's point, and
 /// overlaps are filled once.
 pub(super) fn outlines(points: &[DVec2], radii: &[f64], closed: bool, round: [bool; 2]) -> Vec<Vec<DVec2>> {
     // Points equal to the one before are merged; the wider of the two counts.
@@ -67,7 +68,7 @@ fn towards(a: (DVec2, f64), b: (DVec2, f64)) -> DVec2 {
     (b.0 - a.0).normalize_or(DVec2::X)
 }
 
-/// The offset curve on one side of a line: that of +y for a line along +x.
+/// The offset curve on one side of a line, which is the side of +y for a line along +x.
 fn side(line: &[(DVec2, f64)], closed: bool) -> Vec<DVec2> {
     let n = line.len();
     let mut all: Vec<OffsetPoint> = Vec::with_capacity(n + 8);

@@ -11,11 +11,12 @@ pub const INCH: f64 = 25.4;
 pub struct Page {
     /// Width and height with both margins, in mm.
     pub size: DVec2,
-    /// The width of the margin, in mm. Nothing is drawn there. The rest is the frame, and the picture fills it.
+    /// The width of the margin, in mm. Nothing is drawn on the margin. The picture fills the rest of the page, the
+    /// frame.
     pub margin: f64,
     /// Pixels per inch, above 0.
     pub dpi: f64,
-    /// The unit of the scene's lengths, and hence of its lists.
+    /// The unit of the scene's lengths, and hence of the lists of its marks.
     pub unit: PageUnit,
 }
 
@@ -34,13 +35,14 @@ impl Page {
         Self { size: picture + 2.0 * margin, margin, dpi, unit: PageUnit::Millimetres }
     }
 
-    /// The page of a picture of so many pixels; `margin` in mm.
+    /// The page of a picture given in pixels, with a margin in mm.
     pub fn in_pixels(picture: [usize; 2], margin: f64, dpi: f64) -> Self {
         let size = DVec2::from(picture.map(|n| n as f64)) * INCH / dpi;
         Self { unit: PageUnit::Pixels, ..Self::in_millimetres(size, margin, dpi) }
     }
 
-    /// The page of a scene: in mm where `picture.width` or `picture.height` is, with the margin of `[page]`.
+    /// The page of a scene, with the margin of `[page]`. Its unit is mm if the scene has `picture.width` or
+    /// `picture.height`.
     pub fn of(scene: &Scene) -> Self {
         let mut page = Self::of_picture(&scene.picture);
         if let Some(settings) = &scene.page {

@@ -11,14 +11,15 @@ pub struct Pen {
     pub number: usize,
     /// Name of the layer.
     pub name: String,
-    /// Across the nib, in mm.
+    /// Width of the nib, in mm.
     pub width: f64,
     /// The colour: linear, straight.
     pub color: [f64; 4],
 }
 
 impl Pen {
-    /// The scene's pens on its page, numbered in their order; widths on steps of 0.001 mm, at least one.
+    /// Returns the scene's pens, numbered in their order. Widths are rounded to steps of 0.001 mm, and are at least one
+    /// step.
     pub fn of(pens: &[PenSettings], page: &Page) -> Vec<Self> {
         let pen = |(i, pen): (usize, &PenSettings)| Self {
             number: i + 1,
@@ -35,7 +36,7 @@ impl Pen {
         pens.iter().min_by(|a, b| lightness(a).total_cmp(&lightness(b)))
     }
 
-    /// The layer's name for plotters: number, name and width, such as `1-black 0.3`; the first digits are the number.
+    /// The layer's name for plotters, such as `1-black 0.3`: the number comes first, then name and width.
     pub fn label(&self) -> String {
         format!("{}-{} {}", self.number, self.name, self.width)
     }

@@ -8,24 +8,24 @@ use glam::{DVec2, DVec3};
 /// A line drawn with a round pen through its vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyline {
-    /// The vertices in order, at least two. Of a single one nothing is drawn.
+    /// The vertices in order, at least two. A line of one vertex is not drawn.
     pub vertices: Vec<Vertex>,
-    /// Whether it goes on from the last to the first.
+    /// Whether the line goes on from the last vertex to the first.
     pub closed: bool,
 }
 
-/// A vertex of a line: a dot's numbers, and how far along it is.
+/// A vertex of a line: a dot's numbers, and the share of the line up to the vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
     /// The place on the page, in mm, y down.
     pub at: DVec2,
-    /// The point in the world that it stands for.
+    /// The point in the world that the vertex stands for.
     pub world: DVec3,
-    /// Half the line's width there, in mm on the page.
+    /// Half the line's width at the vertex, in mm on the page.
     pub radius: f64,
     /// The opacity in (0, 1]. It multiplies the opacity of the pen's colour.
     pub opacity: f64,
-    /// The share of the whole line up to here, from 0 to 1. A part that was cut out keeps its shares.
+    /// The share of the whole line up to the vertex, from 0 to 1. Clipping keeps shares.
     pub t: f64,
     /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
@@ -64,7 +64,7 @@ pub fn color_between(a: Option<Rgb>, b: Option<Rgb>, s: f64) -> Option<Rgb> {
     a.zip(b).map(|(a, b)| std::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)).or(a).or(b)
 }
 
-/// A part of a line with one opacity and one colour: what every writer draws.
+/// A part of a line with one opacity and one colour. Every writer draws pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// The points in order, at least two, in mm on the page.
@@ -75,16 +75,16 @@ pub struct Piece {
     pub opacity: f64,
     /// A colour in place of the pen's; none: the pen's.
     pub color: Option<Rgb>,
-    /// Whether it goes on from the last point to the first.
+    /// Whether the piece goes on from the last point to the first.
     pub closed: bool,
     /// Whether the line begins with its first point, and ends with its last.
     pub ends: [bool; 2],
 }
 
 impl Piece {
-    /// Whether the piece begins and ends with half a disc, drawn in ink of that opacity. Opaque pieces overlap at their
-    /// ends, so that nothing shows between them. A translucent line that goes on is cut straight across, so that it
-    /// covers once.
+    /// Whether the piece begins and ends with half a disc, for ink of the given opacity. Opaque pieces overlap at their
+    /// ends, so that no gap shows between them. Translucent pieces of one line are cut straight across, so that no
+    /// place is covered twice.
     pub fn round(&self, ink: f64) -> [bool; 2] {
         if self.opacity * ink == 1.0 { [true; 2] } else { self.ends }
     }
@@ -96,7 +96,7 @@ impl Piece {
         (self.round(ink) == [true; 2] && self.radii.iter().all(|&radius| radius == first)).then_some(first)
     }
 
-    /// The widest half of it.
+    /// Half the largest width of the piece.
     pub fn largest_radius(&self) -> f64 {
         self.radii.iter().copied().fold(0.0, f64::max)
     }
@@ -158,10 +158,9 @@ impl Polyline {
         }
     }
 
-    /// The line in as few pieces as its opacity and its colour allow ([HATCH-21]). In a piece the colour is within 8 of
-    /// 255 of the line's in sRGB. The opacity is within 1/16 of the line's, plus the rounding to steps of sixteenths. A
-    /// segment that changes by more between its two ends has the mean of both. Segments without opacity or width are
-    /// left out.
+    /// Returns the line in as few pieces as its opacity and its colour allow ([HATCH-21]). A piece's sRGB colour is
+    /// within 8/255 of the line's. The opacity is within 1/16 of the line's, plus the rounding to steps of sixteenths.
+    /// A segment whose two ends differ by more has the mean of both. Segments without opacity or width are left out.
     pub fn pieces(&self) -> Vec<Piece> {
         let n = self.vertices.len();
         let segments = match n {

@@ -10,8 +10,8 @@ const PLACE: f64 = 1000.0;
 /// Steps of 1 for opacities: sixteenths.
 pub(super) const OPACITY: f64 = 16.0;
 
-/// The multiple of 1/`steps` nearest to `x`; a tie goes to the even one. Division by a whole number makes it the number
-/// that its decimals are read as.
+/// The multiple of 1/`steps` nearest to `x`; ties go to the even one. Dividing an integer by an integer gives the
+/// number that the decimals are read as.
 pub(super) fn nearest(x: f64, steps: f64) -> f64 {
     (x * steps).round_ties_even() / steps
 }
@@ -27,7 +27,7 @@ pub fn on_step(at: DVec2) -> DVec2 {
 }
 
 impl Marks {
-    /// Makes a list ready for every writer: on its steps, and what the frame holds of it.
+    /// Prepares marks for every writer: rounds them to steps and clips them to the frame.
     pub fn settle(&mut self) {
         // First the steps: a radius that grows must not reach over the edge. Then again for the ends of lines that are cut.
         self.round();
@@ -36,11 +36,11 @@ impl Marks {
     }
 
     /// Rounds every mark to its step: places to 0.001 mm, radii to 0.005 mm, opacities to 1/16, colours of vertices to
-    /// 1/255 of sRGB. If the scene counts in pixels, the step of radii is 0.001 mm too: a dot there may be a few
+    /// 1/255 of sRGB. If the scene counts in pixels, the step of radii is 0.001 mm too, because dots may then be a few
     /// hundredths of a millimetre.
     ///
-    /// Dots without radius or opacity after that, or whose place is not a number, are removed. So are vertices whose
-    /// place is not a number, and lines of fewer than two vertices. Rounding twice changes nothing.
+    /// Dots that then have no radius or opacity, or whose place is not a number, are removed. Vertices whose place is
+    /// not a number are removed, too, and then lines of fewer than two vertices. Rounding twice changes nothing.
     pub fn round(&mut self) {
         let radius_steps = match self.page.unit {
             PageUnit::Millimetres => 200.0,

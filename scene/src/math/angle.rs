@@ -59,7 +59,8 @@ pub fn angle<W: Width>(width: W, y: W::Number, x: W::Number) -> W::Number {
     hi + rest
 }
 
-/// The angle from the other end of a quadrant or of a half turn, where the mask is true. Both are in two parts.
+/// Where the mask is true, the angle counted from the other end of a quadrant or of a half turn. Angles are in two
+/// parts.
 #[inline(always)]
 fn folded<W: Width>(
     width: W,

@@ -48,7 +48,7 @@ impl Double {
         Self::sum(p.hi, p.lo + (self.hi * b.lo + self.lo * b.hi))
     }
 
-    /// Over a number, by two steps of long division.
+    /// Division by a number, in two steps of long division.
     pub(super) const fn over(self, b: f64) -> Self {
         let first = self.hi / b;
         let rest = self.plus(Self::product(-first, b));

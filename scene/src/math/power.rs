@@ -12,10 +12,10 @@ pub const LEAST: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// 1.5 · 2²⁴: adding it rounds a small number to multiples of 2⁻²⁸.
 const TO_28_BITS: f64 = (3u64 << 23) as f64;
-/// 1.5 · 2⁴⁰: the same, to multiples of 2⁻¹².
+/// 1.5 · 2⁴⁰: adding it rounds a small number to multiples of 2⁻¹².
 const TO_12_BITS: f64 = (3u64 << 39) as f64;
 
-/// x^y for [`LEAST`] ≤ x ≤ 1 and 0 ≤ y ≤ 1.5 and a little, to less than an ulp; x¹ is x.
+/// x^y for [`LEAST`] ≤ x ≤ 1 and 0 ≤ y up to slightly above 1.5, to less than an ulp; x¹ is x.
 #[inline(always)]
 pub fn power<W: Width>(width: W, x: W::Number, y: W::Number) -> W::Number {
     // ln x = h + l: x = 2ⁿ(c + d), and d is exact.

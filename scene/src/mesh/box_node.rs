@@ -9,8 +9,8 @@ pub struct BoxNode {
     pub lo: DVec3,
     /// The highest corner.
     pub hi: DVec3,
-    /// The place of the first of two children side by side, or the triangle of a leaf.
+    /// The index of the first of two adjacent children, or the triangle of a leaf.
     pub first: u32,
-    /// Whether it is a leaf, with one triangle.
+    /// Whether the node is a leaf, which has one triangle.
     pub is_leaf: bool,
 }

@@ -21,7 +21,7 @@ pub enum MeshFault {
     /// There is nothing to see.
     #[error("the mesh has no triangle")]
     Empty,
-    /// A corner of a triangle is none of the vertices.
+    /// A corner of a triangle is not in the list of vertices.
     #[error("triangle {triangle} has the vertex {index}, and the mesh has {vertices}")]
     NoVertex {
         /// The triangle.
@@ -43,8 +43,8 @@ pub enum MeshFault {
 const LARGEST: f64 = 1e75;
 
 impl TriangleMesh {
-    /// Makes a mesh of vertices and triangles, which are triples of vertices. Normals are those of vertices, of any
-    /// length; without them triangles are flat.
+    /// Makes a mesh of vertices and triangles, which are triples of vertices. Normals belong to vertices and have any
+    /// length; without normals, triangles are flat.
     ///
     /// # Errors
     /// No triangle, a corner that is no vertex, a number that is not finite.
@@ -84,7 +84,7 @@ impl TriangleMesh {
         &self.triangles
     }
 
-    /// The centre of its box.
+    /// The centre of the mesh's box.
     pub fn centre(&self) -> DVec3 {
         let lo = self.positions.iter().copied().reduce(DVec3::min).unwrap_or(DVec3::ZERO);
         let hi = self.positions.iter().copied().reduce(DVec3::max).unwrap_or(DVec3::ZERO);
@@ -102,8 +102,8 @@ impl TriangleMesh {
         Self::new(positions, normals, self.triangles)
     }
 
-    /// Leaves out each triangle whose corners are those of an earlier one, in the same order. A line meets both at one
-    /// place and sees the first, and a tree over equal boxes takes quadratic time.
+    /// Leaves out each triangle that has the corners of an earlier triangle, in the same order. A line meets both at
+    /// one place and sees the first. A tree over equal boxes would take quadratic time.
     fn without_repeated(mut self) -> Self {
         let positions = &self.positions;
         // The sum turns −0 into 0.

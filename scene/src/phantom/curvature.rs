@@ -2,9 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
-/// κ₁ ≥ κ₂, in 1 / world unit, of the iso-surface through a point with gradient `g` and Hessian `h`: the eigenvalues
-/// of G = −P H P / ‖g‖ in the tangent plane, P = I − n nᵀ (Kindlmann et al. 2003), κ = m ± hypot((a − c)/2, b) on its
-/// 2×2 block [CUR-1]. Bright inside a sphere: both are positive. None where the gradient is 0 or not finite.
+/// κ₁ ≥ κ₂, in 1 / world unit, of the iso-surface through a point with gradient `g` and Hessian `h`: the eigenvalues of
+/// G = −P H P / ‖g‖ in the tangent plane, P = I − n nᵀ (Kindlmann et al. 2003), κ = m ± hypot((a − c)/2, b) on its 2×2
+/// block [CUR-1]. On a sphere that is bright inside, both are positive. None where the gradient is 0 or not finite.
 pub fn curvatures(g: DVec3, h: DMat3) -> Option<[f64; 2]> {
     let length = g.length();
     if !(length > 0.0 && length.is_finite()) {

@@ -1,6 +1,6 @@
 //! Endless circular cylinder: d = R − ‖p − (p·a) a‖, a the unit vector along the axis.
 //!
-//! The iso-surface at distance ρ from the axis has the curvatures 1/ρ and 0. No derivative on the axis.
+//! The iso-surface at distance ρ from the axis has the curvatures 1/ρ and 0. On the axis, f has no derivative.
 
 use super::jet::{Scalar, length};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

@@ -7,10 +7,10 @@
 //! g(u) = Σ (rᵢ pᵢ/aᵢ / (u + rᵢ − 1))² − 1 = 0, u ≥ 0, d = (1 − u) √(Σ (pᵢ / (u + rᵢ − 1))²).
 //!
 //! u is 1 on the surface and 0 on the medial surface, the part of the plane across c where the nearest point is not
-//! unique; there is no derivative there. Elsewhere derivatives are exact: two of Newton's steps on jets.
+//! unique; on it, f has no derivative. Elsewhere derivatives are exact: two of Newton's steps on jets.
 //!
-//! The surface has the curvatures a/b² and a/c² at the end of the axis a, and so on round. At depth d they are those
-//! of the nearest point moved along the normal: κ / (1 − d κ).
+//! The surface has the curvatures a/b² and a/c² at the end of the axis a, and likewise for the other axes. At depth d
+//! they are κ / (1 − d κ), κ those at the nearest point.
 
 use super::jet::{Scalar, length};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

@@ -4,7 +4,7 @@ use crate::memory::NoRoom;
 use crate::space::SpaceError;
 use crate::volume::{NotInVolume, VolumeError};
 
-/// A phantom that cannot be.
+/// A fault that makes a phantom impossible.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PhantomError {
     /// No phantom has that name.
@@ -60,10 +60,10 @@ pub enum PhantomError {
     /// Voxels that the phantom does not have.
     #[error(transparent)]
     NotInVolume(#[from] NotInVolume),
-    /// The phantom's grid cannot be.
+    /// The phantom's grid is impossible.
     #[error(transparent)]
     Space(#[from] SpaceError),
-    /// The phantom's volume cannot be.
+    /// The phantom's volume is impossible.
     #[error(transparent)]
     Volume(#[from] VolumeError),
     /// The memory budget does not allow the voxels.

@@ -2,7 +2,7 @@
 //!
 //! f = min(d_block, −d_cut …, −d_hole …), each d the exact signed distance of a box or of an endless cylinder. Inside
 //! the part f is exactly the distance to its surface: a ball inside the block that meets no cut lies in the part.
-//! Outside −f never exceeds the distance, and is the distance except where the nearest point lies on an edge between
+//! Outside, −f never exceeds the distance. It is the distance except where the nearest point lies on an edge between
 //! two of the bodies. f has kinks; its faces are flat or cylindrical: curvatures 0 and 0, or −1/r in the holes.
 
 use super::jet::{Scalar, length};

@@ -3,7 +3,8 @@
 //!
 //! ρ(q) = (1 − sin(πz/2) + α (1 + ρᵣ(√(x² + y²)))) / (2 (1 + α)), ρᵣ(r) = cos(2π f_M cos(πr/2)), f = high · ρ.
 //!
-//! With f_M = 6 and α = ¼ almost all of its spectrum lies below the Nyquist frequency of 40 voxels along [−1, 1].
+//! With f_M = 6 and α = ¼ almost all of the signal's spectrum lies below the Nyquist frequency of 40 voxels along [−1,
+//! 1].
 
 use super::jet::{Scalar, length_squared};
 use super::params::{About, Allowed, HIGH, Param, Preset};

@@ -1,7 +1,7 @@
 //! Phantoms with known truth ([IO-4]): volumes made by formulas, each with its exact derivatives beside it.
 //!
 //! A phantom is centred on its grid's box, and its axes are the world's. Its parameters have the letters of its
-//! formula and defaults that fit the box: L in their descriptions is the box's smallest side.
+//! formula, and defaults that fit the box. In the parameters' descriptions, L is the box's smallest side.
 //!
 //! - **Distance phantoms** have as value the distance to the surface, positive inside, in world units. With an edge
 //!   width w > 0 the value is high / (1 + e^(−d/w)) instead, as a scanner would see it; derivatives follow by the
@@ -65,18 +65,18 @@ pub trait Phantom: Send + Sync {
     /// The value at a point in world space.
     fn value(&self, p: DVec3) -> f64;
 
-    /// Value, gradient and Hessian there, in value per world unit and per square of it.
+    /// Value, gradient and Hessian at a point. Derivatives are in value per world unit and per square of a world unit.
     fn jet(&self, p: DVec3) -> Jet;
 
-    /// The label there; 0 is none.
+    /// The label at a point; 0 is none.
     fn label(&self, p: DVec3) -> u16;
 
-    /// The gradient there, in value per world unit.
+    /// The gradient at a point, in value per world unit.
     fn gradient(&self, p: DVec3) -> DVec3 {
         self.jet(p).gradient
     }
 
-    /// The Hessian there, in value per square of the world unit.
+    /// The Hessian at a point, in value per square of the world unit.
     fn hessian(&self, p: DVec3) -> DMat3 {
         self.jet(p).hessian
     }
@@ -122,7 +122,7 @@ pub fn names() -> Vec<&'static str> {
 /// The phantom of that name on a grid, with the defaults of floating-point voxels.
 ///
 /// # Errors
-/// An unknown name or parameter, or a value that is not allowed; the error says what is.
+/// An unknown name or parameter, or a value that is not allowed; the error says what is allowed.
 pub fn by_name(name: &str, grid: &Grid, params: &[(String, f64)]) -> Result<Box<dyn Phantom>, PhantomError> {
     for_type(name, grid, VoxelType::F64, params)
 }

@@ -13,11 +13,11 @@ use std::fmt;
 pub struct About {
     /// The name in a scene and on the command line.
     pub name: &'static str,
-    /// One line: what it is, and its formula where that is short.
+    /// One line that describes the phantom, with the formula if it is short.
     pub doc: &'static str,
     /// The parameters.
     pub params: &'static [Param],
-    /// Makes it; an error says which parameters do not go together.
+    /// Makes the phantom; an error says which parameters contradict each other.
     pub(super) build: fn(&Args) -> Result<Box<dyn Phantom>, String>,
 }
 
@@ -26,16 +26,16 @@ pub struct About {
 pub struct Param {
     /// The letter of the formula.
     pub name: &'static str,
-    /// One line: what it is.
+    /// One line that describes the parameter.
     pub doc: &'static str,
     /// The value if none is given.
     pub default: Preset,
-    /// The values that it can have.
+    /// The allowed values.
     pub allowed: Allowed,
 }
 
-/// A default that fits the grid. L is the smallest side of the field's box in world units, axes of length 1 not
-/// counted unless all are.
+/// A default that fits the grid. L is the smallest side of the field's box in world units. Axes of length 1 count only
+/// if all axes have length 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Preset {
     /// A number.
@@ -87,7 +87,7 @@ impl fmt::Display for Allowed {
 }
 
 impl Allowed {
-    /// Whether a value is among them.
+    /// Whether a value is allowed.
     pub fn holds(&self, x: f64) -> bool {
         x.is_finite()
             && match self {
@@ -111,7 +111,7 @@ pub(super) const W: Param = Param {
 pub(super) const HIGH: Param =
     Param { name: "high", doc: "the highest value", default: Preset::Top, allowed: Allowed::Any };
 
-/// Seed of what is random.
+/// Seed of the random numbers.
 pub(super) const SEED: Param = Param {
     name: "seed",
     doc: "seed of the random numbers",
@@ -121,7 +121,7 @@ pub(super) const SEED: Param = Param {
 
 /// The input to a phantom: the grid that it is sampled on, and a value for each of its parameters.
 pub(super) struct Args<'a> {
-    /// The grid it is sampled on.
+    /// The grid that the phantom is sampled on.
     pub(super) grid: &'a Grid,
     values: Vec<f64>,
 }
@@ -193,13 +193,14 @@ impl<'a> Args<'a> {
         self.distance(formula, 0.0, 1.0)
     }
 
-    /// A phantom whose formula is a distance, centred on the grid's box, with an edge of width `w` unless that is 0.
+    /// A phantom whose formula is a distance, centred on the grid's box. Its edge has the width `w`; 0 gives the
+    /// distance itself.
     pub(super) fn distance(&self, formula: impl Formula + 'static, w: f64, high: f64) -> Box<dyn Phantom> {
         Box::new(Placed { formula, centre: self.grid.centre(), edge: Edge { w, high } })
     }
 }
 
-/// L: the smallest side of the field's box in world units, axes of length 1 not counted unless all are.
+/// L: the smallest side of the field's box in world units. Axes of length 1 count only if all axes have length 1.
 fn smallest_side(grid: &Grid) -> f64 {
     let (dims, spacing) = (grid.dims(), grid.spacing());
     let side = (0..3).filter(|&a| dims[a] > 1).map(|a| (dims[a] - 1) as f64 * spacing[a]).fold(f64::INFINITY, f64::min);

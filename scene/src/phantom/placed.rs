@@ -9,7 +9,7 @@ pub(super) trait Formula: Send + Sync {
     /// The field at a point relative to the phantom's centre.
     fn at<S: Scalar>(&self, p: [S; 3]) -> S;
 
-    /// The label there; 0 is none.
+    /// The label at a point relative to the phantom's centre; 0 is none.
     fn label(&self, _p: DVec3) -> u16 {
         0
     }

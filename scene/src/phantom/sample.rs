@@ -9,7 +9,7 @@ use crate::volume::{KeptVoxels, Subset, Volume, VoxelType, Voxels};
 use glam::DVec3;
 
 /// The phantom's value at each voxel centre. Integer types are rounded to the nearest (ties to even) and clamped to
-/// their range. A stored value is therefore within ½ of the analytic one if that is in range. f32 rounds to the
+/// their range. A stored integer is therefore within ½ of an analytic value that is in range. f32 rounds to the
 /// nearest. The result does not depend on the number of threads.
 ///
 /// # Errors

@@ -43,7 +43,7 @@ pub(super) const SPECIMEN: About = About {
     },
 };
 
-/// Radius of the veil between the spines, and how far it follows them outwards.
+/// Radius of the veil between the spines, and the distance by which the spines draw the veil outwards.
 const VEIL: [f64; 2] = [0.33, 0.13];
 /// Ring, winding radius and tube of the knot.
 const KNOT: [f64; 3] = [0.13, 0.056, 0.034];
@@ -54,7 +54,7 @@ const CORE: f64 = 0.04;
 const LATTICE: [f64; 2] = [0.265, 0.016];
 /// sin² of half the angle from a pore's centre to its rim.
 const PORE: f64 = 0.0138;
-/// Radius of a spine where it starts, and how far out it ends.
+/// Radius of a spine at its start, and distance of its end from the centre.
 const SPINE: [f64; 2] = [0.0145, 0.44];
 /// Radius of the fillets where bodies of the skeleton meet.
 const FILLET: f64 = 0.006;

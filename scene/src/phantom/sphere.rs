@@ -1,6 +1,6 @@
 //! Sphere: d = R − ‖p‖.
 //!
-//! Both curvatures of the iso-surface at radius ρ are 1/ρ. No derivative at the centre.
+//! Both curvatures of the iso-surface at radius ρ are 1/ρ. At the centre, f has no derivative.
 
 use super::jet::{Scalar, length};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

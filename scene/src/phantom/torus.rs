@@ -1,8 +1,8 @@
 //! Ring torus about the z axis: d = r − √((√(x² + y²) − R)² + z²).
 //!
 //! With θ the angle round the tube, 0 on the outer side, the iso-surface at distance ρ from the ring of radius R has
-//! the curvatures 1/ρ and cos θ / (R + ρ cos θ): both positive outside, opposite signs inside. No derivative on the
-//! ring and on the axis.
+//! the curvatures 1/ρ and cos θ / (R + ρ cos θ): both are positive on the outer side, and of opposite signs on the
+//! inner side. f has no derivative on the ring and the axis.
 
 use super::jet::{Scalar, length};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

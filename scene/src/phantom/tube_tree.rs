@@ -2,9 +2,9 @@
 //!
 //! f = max over the tubes of r − dist(p, segment). Each fork follows C. D. Murray: The physiological principle of
 //! minimum work, 1926: radii r₀³ = 2 r₁³, and so an angle θ with cos θ = 2^(−1/3) between parent and child (37.5°);
-//! lengths shrink like radii, and each fork's plane is a right angle from the last. Outside the tubes −f is exactly
-//! the distance to the surface; inside, f is the distance to the surface of the tube that p lies deepest in. κ of one
-//! tube: 1/ρ and 0; 1/ρ and 1/ρ at its round ends.
+//! lengths shrink like radii, and each fork's plane is a right angle from the last. Outside the tubes −f is exactly the
+//! distance to the surface; inside, f is the distance to the surface of the tube that p lies deepest in. A tube has the
+//! curvatures 1/ρ and 0, and 1/ρ and 1/ρ at its round ends.
 
 use super::jet::{Scalar, length, length_squared};
 use super::params::{About, Allowed, HIGH, Param, Preset, W};

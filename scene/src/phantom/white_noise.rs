@@ -1,7 +1,7 @@
 //! White noise: one random number a voxel, f = high · u(x, y, z), from the nearest voxel.
 //!
 //! u is [RAY-4]'s number with counter (x, y, z, draw 0) of the phantom's own grid. Piecewise constant: all derivatives
-//! are 0. Outside the box the voxels go on (their indices modulo 2³²).
+//! are 0. The pattern continues outside the box, with indices modulo 2³².
 
 use super::Phantom;
 use super::jet::{Jet, Scalar};

@@ -16,9 +16,9 @@ pub(super) struct Drawn {
 /// A table of a scene, or an item of a list of tables.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct At {
-    /// Its key from the top, such as `contours` or `pen[0]`; empty for the top itself.
+    /// The table's key from the top, such as `contours` or `pen[0]`; empty for the top itself.
     pub(crate) key: String,
-    /// Its number, if it is an item of a list of tables; items count from 0.
+    /// The item's index, from 0, if the table is one of a list.
     pub(crate) item: Option<usize>,
 }
 
@@ -34,7 +34,7 @@ impl At {
 pub(crate) struct Asks<'a> {
     pub(super) scene: &'a Scene,
     pub(super) drawn: Drawn,
-    /// The table whose hook runs.
+    /// The table whose rules run.
     pub(crate) at: At,
     pub(super) needs: Vec<Need>,
     pub(super) passes: Vec<PassNeed>,
@@ -83,22 +83,23 @@ impl Asks<'_> {
         self.drawn.points
     }
 
-    /// Whether strokes of hatching are drawn, if the scene has some. Outlines go with dots and with strokes.
+    /// Whether strokes of hatching are drawn, if the scene has some. Outlines are drawn with dots and with strokes.
     pub(crate) fn draws_strokes(&self) -> bool {
         self.drawn.strokes
     }
 
-    /// Whether someone needed a pass.
+    /// Whether an effect needs a pass.
     pub(crate) fn has_pass(&self, pass: Pass) -> bool {
         self.passes.iter().any(|need| need.pass == pass)
     }
 
-    /// The first that needed a quantity, if anyone does.
+    /// The first need of a quantity, if an effect needs it.
     pub(crate) fn first(&self, quantity: Quantity) -> Option<&Need> {
         self.needs.iter().find(|need| need.quantity == quantity)
     }
 
-    /// Adds what the needed quantities are made of, for whoever needed them first: where they are needed.
+    /// Adds the quantities that needed quantities are made of, for the same samples and the first effect that needs
+    /// them.
     pub(super) fn close(&mut self) {
         const ALL: [Samples; 3] = [Samples::Visible, Samples::First, Samples::Seeds];
         for (quantity, samples) in Quantity::ALL.into_iter().rev().flat_map(|q| ALL.map(|samples| (q, samples))) {
@@ -123,24 +124,24 @@ impl Asks<'_> {
 #[derive(Debug)]
 pub(crate) struct Idle<'a> {
     pub(super) scene: &'a Scene,
-    /// The table whose hook runs.
+    /// The table whose rules run.
     pub(crate) at: At,
     pub(super) keys: Vec<IdleKey>,
 }
 
 impl Idle<'_> {
-    /// Whether the scene says a key or table.
+    /// Whether the scene has a key or table.
     pub(crate) fn says(&self, key: &str) -> bool {
         self.scene.given.contains(key)
     }
 
-    /// In the order of the scene.
+    /// Returns the keys in the order of the scene.
     pub(super) fn sorted(mut self) -> Vec<IdleKey> {
         self.keys.sort_by(|a, b| (&a.place, &a.key).cmp(&(&b.place, &b.key)));
         self.keys
     }
 
-    /// Lists a key or table that has no effect, if the scene says it.
+    /// Lists a key or table that has no effect, if the scene has it.
     pub(crate) fn key(&mut self, key: &str, why: &str) {
         if let Some(place) = self.scene.given.place(key) {
             self.keys.push(IdleKey { key: key.into(), place: place.clone(), why: why.into() });

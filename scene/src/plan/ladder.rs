@@ -6,7 +6,7 @@ use crate::tables::Scene;
 /// The picture that the settings of a knob converge to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Limit {
-    /// The picture of the field itself, which is known where the field is a formula ([COST-2]).
+    /// The picture of the field itself, which is known if the field is a formula ([COST-2]).
     Field,
     /// The picture at the finest setting, whatever the field is.
     Finest,

@@ -35,8 +35,8 @@ pub struct Need {
     pub samples: Samples,
     /// The effect that needs it.
     pub effect: String,
-    /// The item that needs it, if the effect is one of a list of tables; items count from 0. Needs are closed for the
-    /// picture as a whole, so an item's prerequisites may stand with another item.
+    /// The index, from 0, of the item that needs the quantity, if the effect is one of a list of tables. A prerequisite
+    /// is listed once for the whole picture, so that it may stand with another item.
     pub item: Option<usize>,
     /// The key or table that asked, such as `contours.kappa` or `pen[0].width`.
     pub key: String,
@@ -60,7 +60,7 @@ impl Need {
 pub struct PassNeed {
     /// The pass.
     pub pass: Pass,
-    /// Whether only a volume of integers needs it: the scene leaves it to the volume ([`Plan::settle`]).
+    /// Whether only a volume of integers needs the pass. [`Plan::settle`] then decides.
     pub integer_only: bool,
     /// The effect that needs it.
     pub effect: String,
@@ -79,7 +79,7 @@ pub struct IdleKey {
     pub key: String,
     /// Place of the key in the scene.
     pub place: Place,
-    /// Why it has no effect.
+    /// The reason why the key has no effect.
     pub why: String,
 }
 
@@ -92,9 +92,9 @@ pub struct Plan {
     pub passes: Vec<PassNeed>,
     /// Keys without effect.
     pub idle_keys: Vec<IdleKey>,
-    /// The values of nodes in another unit than values, for each function of which they have been found.
+    /// The values of nodes that are given in another unit, for each function whose node values are known.
     pub nodes: Vec<NodesPlan>,
-    /// The points of stipples, where they have been counted.
+    /// The points of stipples, if they have been counted.
     pub points: Option<PointsPlan>,
     /// Flaws that the picture may have.
     pub warnings: Vec<String>,
@@ -105,7 +105,8 @@ pub struct Plan {
 pub struct NodesPlan {
     /// The key of the nodes' unit, such as `transfer.unit` or `object[0].transfer.unit`.
     pub key: String,
-    /// The object in whose own data the picture's function stands; none: the function is that of its data.
+    /// The object in whose own data the values of the picture's function are found; none for the data of the function
+    /// itself.
     pub within: Option<usize>,
     /// The name of the nodes' unit.
     pub unit: &'static str,
@@ -113,14 +114,14 @@ pub struct NodesPlan {
     pub values: Vec<[f64; 2]>,
 }
 
-/// How many points stipples have, which takes a look at the volume.
+/// The number of stipple points, which depends on the volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PointsPlan {
     /// Voxels above the threshold.
     pub voxels: u64,
-    /// Points of each: N_max, and more in thin layers of voxels that are not cubes ([STIP-3], [STIP-4]).
+    /// Points of each voxel: N_max, and more in thin layers of voxels that are not cubes ([STIP-3], [STIP-4]).
     pub each: u64,
-    /// Bytes while they are made: points, voxels, order.
+    /// Bytes of points, voxels and order while points are made.
     pub bytes: u64,
 }
 
@@ -140,7 +141,7 @@ impl Plan {
         self.needs_at(quantity, &[Samples::Seeds])
     }
 
-    /// Whether a look that the volume meets needs that quantity where it is shaded by the volume.
+    /// Whether a material that the volume meets needs that quantity at samples that the volume shades.
     pub fn needs_at_meetings(&self, quantity: Quantity) -> bool {
         self.needs_at(quantity, &[Samples::Meetings])
     }
@@ -180,8 +181,8 @@ impl Plan {
         self.passes.iter().any(|need| need.pass == pass)
     }
 
-    /// Effects, what they need, and the keys that asked, one a line: the plan as a picture's metadata has it ([IO-2]).
-    /// Without places and notes for the author, so that every file that says the same scene has the same.
+    /// The plan for a picture's metadata ([IO-2]): effects, their needs, and the keys that asked, one a line. Places
+    /// and notes for the author are left out, so that the text depends on the scene alone and not on its file.
     pub fn summary(&self) -> String {
         let needs = self.needs.iter().map(|n| (&n.effect, n.quantity.name(), &n.key));
         let passes = self.passes.iter().map(|p| (&p.effect, p.pass.name(), &p.key));
@@ -189,7 +190,7 @@ impl Plan {
         lines.collect()
     }
 
-    /// Warns where the eye of a perspective view lies in the box of the volume: nobody sees what is behind it.
+    /// Warns if the eye of a perspective view lies in the box of the volume. The part behind the eye is then not seen.
     pub fn warn_eye(&mut self, view: &View, grid: &Grid) {
         let [lo, hi] = grid.index_box();
         let eye = grid.to_index(view.eye);
@@ -200,7 +201,7 @@ impl Plan {
         }
     }
 
-    /// Warns where the longest distance between samples along a ray exceeds a voxel ([RAY-1]), both in world units.
+    /// Warns if the longest distance between samples along a ray exceeds a voxel ([RAY-1]). Both are in world units.
     pub fn warn_step(&mut self, longest_step: f64, voxel: f64) {
         if longest_step > voxel {
             // Digits of a length that nobody means are no help.
@@ -214,8 +215,8 @@ impl Plan {
         }
     }
 
-    /// Tells by which angle generated contours miss the silhouette in the corners of a perspective picture, where c is
-    /// exact in its centre ([VS-5]). Errors below a tenth of a degree are not told.
+    /// Warns if contours with the exact factor c miss the silhouette in the corners of a perspective picture ([VS-5]).
+    /// The factor is exact at the picture's centre. Angles below a tenth of a degree are not reported.
     pub fn warn_contours(&mut self, scene: &Scene, view: &View) {
         let Some(shading) = scene.shading.as_ref().filter(|_| self.needs(Quantity::GradientMagnitudeRange)) else {
             return;
@@ -240,7 +241,7 @@ impl Plan {
 }
 
 impl fmt::Display for Plan {
-    /// Effect, what it needs, what that adds, and which line of the scene asked.
+    /// Writes the effect, its needs, the work that they add, and the line of the scene that asked.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let because = |key: &str, place: &Option<Place>| match place {
             Some(Place::File { line, .. }) => format!("{key} (line {line})"),

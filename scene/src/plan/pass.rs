@@ -9,11 +9,11 @@ pub enum Pass {
     Coefficients,
     /// Coefficients of the B-spline of the smoothed grid ([REC-3]).
     SmoothedCoefficients,
-    /// The quantile of ‖g‖ over the voxels, where `gradient_range` is none that is given ([VAL-2]).
+    /// The quantile of ‖g‖ over the voxels, if `gradient_range` gives no numbers ([VAL-2]).
     GradientRange,
     /// The automatic transfer function, from values and their differences between neighbours.
     AutomaticTransfer,
-    /// The automatic iso-value, from the same.
+    /// The automatic iso-value, from values and their differences between neighbours.
     AutomaticIso,
     /// The distance of every voxel to a label ([STF-4]).
     LabelDistances,
@@ -57,7 +57,7 @@ pub enum Pass {
     Factor,
     /// The dots of a frame ([STIP-5], [STIP-6]).
     Dots,
-    /// Which points an iso-surface hides ([STIP-15]).
+    /// The points that an iso-surface hides ([STIP-15]).
     HiddenPoints,
     /// The choice of dots on the page ([STIP-19]).
     DotsOnPage,
@@ -71,7 +71,7 @@ pub enum Pass {
     Pyramid,
     /// The cells in which the transfer function shows something ([HATCH-16]).
     SeenCells,
-    /// Gradient and curvature about them, which seeds are drawn by ([HATCH-6]).
+    /// Gradient and curvature about these cells, by which seeds are drawn ([HATCH-6]).
     SeedMeasures,
     /// Principal directions at voxels, where strokes ask for them ([HATCH-4], [HATCH-5]).
     StoredDirections,
@@ -81,11 +81,11 @@ pub enum Pass {
     Strokes,
     /// Strokes that cross the first ones ([HATCH-11]).
     CrossStrokes,
-    /// Which of them are drawn, so that they are apart on the page ([HATCH-19]).
+    /// The choice of strokes that keeps a distance on the page ([HATCH-19]).
     Spacing,
     /// The colours of strokes in the light ([HATCH-12]).
     LitStrokes,
-    /// Which parts of strokes an iso-surface hides ([HATCH-14]).
+    /// The parts of strokes that an iso-surface hides ([HATCH-14]).
     HiddenStrokes,
     /// Strokes inside the picture of the volume ([HATCH-14]).
     MergedStrokes,
@@ -94,7 +94,7 @@ pub enum Pass {
 }
 
 impl Pass {
-    /// Passes that depend on the distance between rays, so that all pixels have equally many.
+    /// Passes that depend on the distance between rays, so that all pixels need equally many rays.
     pub(crate) const OF_EQUAL_RAYS: [Self; 3] = [Self::HaloSeeds, Self::StyleMipmaps, Self::MergedStrokes];
 
     /// Its name.
@@ -196,7 +196,7 @@ impl Pass {
         }
     }
 
-    /// Bytes that it takes for each voxel of the volume while it runs, at the most: what may be more than there is.
+    /// Most bytes of memory that the pass takes, while it runs, for each voxel of the volume. Small needs count as 0.
     pub fn bytes_a_voxel(self) -> u64 {
         match self {
             // One number of 64 bits.

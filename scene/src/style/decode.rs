@@ -9,7 +9,7 @@ use std::io::Cursor;
 /// The largest side of a style's picture, in texels: 512 MiB decoded, far beyond what a lookup can tell apart.
 pub const MAX_SIDE: usize = 4096;
 
-/// Bytes of a texel at the most: four channels as the decoder and the file have them, the straight ones, and the style's.
+/// Most bytes of memory of a texel: four channels for the decoder, for the file, as straight numbers, and in the style.
 const EACH: u64 = 2 * 16 + 2 * 32;
 
 /// A square or other picture of straight RGBA in [0, 1], row by row from the top.
@@ -106,7 +106,7 @@ pub(super) fn shares<C: Copy + Into<f64>>(codes: &[C], largest: f64) -> Rgba {
     rgba(&numbers[..codes.len()])
 }
 
-/// Light multiplied by alpha as straight RGBA in [0, 1]; what is no number is 0.
+/// Converts light multiplied by alpha to straight RGBA in [0, 1]; NaN becomes 0.
 pub(super) fn of_light(channels: &[f32]) -> Rgba {
     let [r, g, b, a] = shares(channels, 1.0).map(|c| c.max(0.0));
     let a = a.min(1.0);

@@ -3,7 +3,7 @@
 use crate::memory::NoRoom;
 use std::path::PathBuf;
 
-/// Why a picture is no style.
+/// The fault of a picture that makes no style.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PictureFault {
     /// A file that is no PNG, JPEG or OpenEXR, or a damaged one.
@@ -63,7 +63,7 @@ pub enum PictureFault {
     },
 }
 
-/// A style or a theme that a scene names and that cannot be had.
+/// A style or a theme that a scene names and that cannot be loaded.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StyleError {
     /// Neither the theme nor `[styles]` has a style of that name.
@@ -116,7 +116,7 @@ pub enum StyleError {
         /// The operating system's reason.
         reason: String,
     },
-    /// A style's picture is no style.
+    /// A style's picture has a fault.
     #[error("style `{name}`: {}: {fault}", file.display())]
     Picture {
         /// The style.

@@ -7,8 +7,8 @@ use crate::source::Source;
 use crate::tables::Styles;
 
 /// The M distinct styles among the names `used`, each once, in the order in which they first occur. The index j of
-/// [STF-3] is the position in the result. A single file of `[styles]` overrides the theme's style of the same name. No
-/// file is opened if no style is used, and no picture is decoded that is not used.
+/// [STF-3] is the position in the result. A single file of `[styles]` overrides the theme's style of the same name. If
+/// no style is used, no file is opened. Only the pictures of used styles are decoded.
 ///
 /// # Errors
 /// A theme that does not exist, a style that neither the theme nor `[styles]` has (with the nearest name and all the

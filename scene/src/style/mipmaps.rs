@@ -1,4 +1,4 @@
-//! The mip chain of a style (4.3; [STF-10]): of this style alone, linear and premultiplied, over its disk alone.
+//! The mip chain of a style (4.3; [STF-10]): of a single style, linear and premultiplied, over its disk only.
 //!
 //! Level ℓ has ⌈S/2^ℓ⌉ texels a side, also for sides that are no powers of two; the last level has one texel. The
 //! texels of a level share the picture equally. Each is the mean, by area, of the part of the disk that it covers. The
@@ -14,12 +14,12 @@ use std::ops::Range;
 /// A level of a mip chain above the style itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MipLevel {
-    /// log₂(S/side): the level of detail that it belongs to.
+    /// λ = log₂(S/side), the level of detail.
     pub lambda: f64,
     /// Texels along its side.
     pub side: usize,
     /// Texels row by row from the top, linear and premultiplied. A texel that covers nothing of the disk is a copy of
-    /// the nearest one that does, like the outside texels of the style.
+    /// the nearest texel that covers some of it, like the outside texels of the style.
     pub texels: Vec<Rgba>,
 }
 

@@ -1,4 +1,4 @@
-//! The disk of a lit sphere: which texels belong to it, and what stands in for the others ([STF-1]).
+//! The disk of a lit sphere: its inside texels, and the colours of the texels outside ([STF-1]).
 
 use crate::color::Rgba;
 use std::ops::Range;

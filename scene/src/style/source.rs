@@ -4,7 +4,7 @@ use super::PictureFault;
 use super::decode::{Codes, DecodedPicture, of_light, shares};
 use crate::color::{Rgba, premultiply, srgb_to_linear};
 
-/// The largest side of such a picture, in pixels: room for large scans of works of art.
+/// The largest side of a source picture, in pixels, which is enough for large scans of works of art.
 const MAX_SIDE: usize = 16384;
 
 /// Bytes of a pixel at the most: four channels as the decoder and the file have them.

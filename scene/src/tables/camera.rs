@@ -85,7 +85,7 @@ pub enum Projection {
 }
 
 choices! {
-    /// `projection` without what belongs to each.
+    /// `projection` without its parameters.
     #[derive(Clone, Copy, PartialEq)]
     enum Projected {
         /// Through the eye.

@@ -77,7 +77,7 @@ choices! {
 }
 
 choices! {
-    /// `kappa` without what belongs to each.
+    /// `kappa` without its parameters.
     #[derive(Clone, Copy, PartialEq)]
     enum KappaName {
         /// From two normals along the ray.

@@ -18,8 +18,8 @@ pub(crate) enum HaloPreset {
 }
 
 impl HaloPreset {
-    /// Puts its tables into a scene. Widths are shares of the picture's height, so that a small picture looks like a large
-    /// one.
+    /// Puts the preset's tables into a scene. Widths are shares of the picture's height, so that a small picture looks
+    /// like a large one.
     pub(crate) fn supply(self, scene: &mut Scene) {
         scene.transfer = Some(Transfer::automatic(TransferKind::Regular));
         match self {
@@ -79,7 +79,7 @@ fn lines() -> Halo {
     lines
 }
 
-/// Paper between the contours of what is near and the colours of what lies behind.
+/// A gap of paper between the contours of a near surface and the colours behind it.
 fn gap() -> Halo {
     Halo {
         name: "gap".into(),
@@ -89,8 +89,8 @@ fn gap() -> Halo {
     }
 }
 
-/// A halo of one colour, whose seeds lie in a band so many voxels deep, and whose opacity goes through two points over the
-/// intensity.
+/// A halo of one colour. Its seeds lie in a band of a depth in voxels. Its opacity over the intensity goes through two
+/// points.
 fn halo(kind: HaloKind, voxels: f64, [r, g, b, _]: Rgba, profile: [(f64, f64); 2]) -> Halo {
     Halo {
         kind,
@@ -102,14 +102,14 @@ fn halo(kind: HaloKind, voxels: f64, [r, g, b, _]: Rgba, profile: [(f64, f64); 2
     }
 }
 
-/// A line's width, in a share of the picture's height. Two passes, because four fall to fewer in small pictures and to other
-/// ones in large pictures, and lines would be thinner there.
+/// The spreading of a thin line, in a share of the picture's height. It takes two passes: with four, their number would
+/// fall in small pictures, and lines would be thinner.
 fn fine() -> Spreading {
     Spreading { passes: 2, reach: Some(Length::Percent(1.0)), ..Spreading::default() }
 }
 
-/// A soft halo whose reach is so many per cent of the picture's height. Six passes, because the taps of four would lie some
-/// pixels apart and show as dots around what is small.
+/// A soft halo with a reach in per cent of the picture's height. It takes six passes: the taps of four would lie some
+/// pixels apart, and show as dots around small things.
 fn wide(delta: f64, reach: f64) -> Spreading {
     Spreading { delta, passes: 6, reach: Some(Length::Percent(reach)), ..Spreading::default() }
 }

@@ -192,7 +192,7 @@ impl Kind for AtKind {
     }
 }
 
-/// The name of a style, which must be known once the whole scene is read.
+/// The name of a style. It is checked after the whole scene is read.
 pub(super) struct StyleName;
 
 const STYLE_NAME: Text = Text { what: "the name of a style" };
@@ -315,7 +315,7 @@ fn mixed(at: &[Option<At>]) -> Option<usize> {
     at.iter().position(|at| at.as_ref().is_some_and(|at| kind(at) != first))
 }
 
-/// The later of two neighbours that stand in the wrong order, and what is wrong.
+/// The later of two neighbours that stand in the wrong order, and the fault.
 fn disordered((i, pair): (usize, &[Option<At>])) -> Option<(usize, String)> {
     match *pair {
         [Some(At::One(before)), Some(At::One(after))] if after < before => {
@@ -332,7 +332,7 @@ fn disordered((i, pair): (usize, &[Option<At>])) -> Option<(usize, String)> {
 /// Cuts a grid of nodes into its rows: a new one begins where y rises or x falls. Rows must have the same x.
 ///
 /// # Errors
-/// A place that some row has and another has not.
+/// A place that one row has and another row lacks.
 fn rows(nodes: &[Written]) -> Result<Vec<Row>, [f64; 2]> {
     let mut rows: Vec<(f64, Vec<Node>)> = Vec::new();
     for node in nodes {

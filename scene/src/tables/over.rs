@@ -1,7 +1,7 @@
 //! The quantities of a transfer function: the value, or two quantities ([STF-4], 4.2).
 //!
-//! The list of quantities is open. Another one is a variant of [`Axis`], a line in the list of names or in the table of
-//! quantities of something, and a measure in the renderer.
+//! The list of quantities is open. A new one takes a variant of [`Axis`], a line in the list of names or in the table
+//! of quantities with a parameter, and a measure.
 
 use crate::document::Problem;
 use crate::document::check::Check;
@@ -26,8 +26,8 @@ pub enum Over {
     Two([Axis; 2]),
 }
 
-/// A quantity that an axis of a transfer function measures. `L` is how a label is named: by id or name in a scene, by id
-/// alone where names have been looked up.
+/// A quantity that an axis of a transfer function measures. `L` is the type of a label's name: an id or a name in a
+/// scene, and an id alone after names have been looked up.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis<L = LabelKey> {
@@ -107,7 +107,7 @@ table! {
 }
 
 impl AxisOf {
-    /// The quantity. Of several keys the last one counts; a table without a key has no quantity.
+    /// The quantity. If there are several keys, the last one counts. A table without a key has no quantity.
     fn axis(self) -> Option<Axis> {
         let distance = || self.distance.map(Axis::Distance);
         let label = || self.distance_to_label.map(Axis::DistanceToLabel);
@@ -162,7 +162,7 @@ impl Over {
 }
 
 impl<L> Axis<L> {
-    /// Whether it is an id, between two of which nothing lies.
+    /// Whether the quantity is an id. There is no value between two ids.
     pub fn is_id(&self) -> bool {
         matches!(self, Self::Label)
     }
@@ -260,7 +260,7 @@ impl Kind for OverKind {
     }
 }
 
-/// One quantity: a name, or a table that says what it is of.
+/// One quantity: a name, or a table with the quantity's parameter.
 struct AxisKind;
 
 impl Shape for AxisKind {

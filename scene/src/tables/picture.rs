@@ -101,14 +101,14 @@ choices! {
 }
 
 impl PictureSettings {
-    /// Width and height as the scene gives them on the page; none where it counts in pixels, or where `size` has been
+    /// Width and height on the page as the scene gives them. None if the scene counts in pixels, or if `size` has been
     /// changed since.
     pub fn extent(&self) -> Option<[Length; 2]> {
         let [Some(width), Some(height)] = self.lengths else { return None };
         ([width, height].map(|length| pixels(length, self.dpi)) == self.size).then_some([width, height])
     }
 
-    /// The pixels of a length on the page, or of a share of the picture's height; none of a length in the world.
+    /// The pixels of a length on the page, or of a share of the picture's height; none for a length in the world.
     pub fn in_pixels(&self, length: Length) -> Option<f64> {
         match length {
             Length::Millimetres(mm) => Some(mm * self.dpi / INCH),
@@ -133,7 +133,7 @@ const EXTENT: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
 /// Millimetres of an inch.
 const INCH: f64 = 25.4;
 
-/// A length on the page in whole pixels; what is too long for any picture ends at the largest number.
+/// A length on the page in whole pixels. A length that is too long for any picture gives the largest number.
 fn pixels(length: Length, dpi: f64) -> usize {
     match length {
         Length::Millimetres(mm) => (mm / INCH * dpi).round_ties_even() as usize,
@@ -190,7 +190,7 @@ const LAYER: Choice<LayerKind> = Choice {
     later: &[],
 };
 
-/// A layer by its name; that of a halo or an object has its place in the list, from 0.
+/// A layer by its name. The name of a halo's or an object's layer has the index in the list, from 0.
 struct LayerName;
 
 impl Shape for LayerName {

@@ -14,13 +14,13 @@ pub(super) enum Preset {
     Style,
     /// A table `[stipples]`, and the outlines beside it.
     Stipples(StipplePreset),
-    /// A table `[hatching]`, and what belongs to the picture.
+    /// A table `[hatching]`, and the tables that its picture needs.
     Hatch(HatchPreset),
     /// A table `[outlines]`.
     Outline,
     /// Tables `[surface]` and `[shading]`.
     Toon(ToonPreset),
-    /// Tables `[[halo]]`, `[transfer]`, and what belongs to them.
+    /// Tables `[[halo]]` and `[transfer]`, and the tables that they need.
     Halo(HaloPreset),
 }
 

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// does not exist ([SCN-1]). The default is a template: it names no volume and has no effect.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// Towards the light, for all that is lit and says nothing else.
+    /// The direction towards the light, for everything lit that has no light of its own.
     pub light: LightDirection,
     /// The data that is seen.
     pub volume: VolumeTable,
@@ -24,7 +24,7 @@ pub struct Scene {
     pub orbit: Option<Orbit>,
     /// Size, resolution and background of the picture.
     pub picture: PictureSettings,
-    /// The paper of points and lines; none: without a margin, and not for a plotter.
+    /// The paper of points and lines; none: there is no margin, and no plotter draws the page.
     pub page: Option<PageSettings>,
     /// The pens of points and lines, in the order of their layers' numbers.
     pub pens: Vec<PenSettings>,
@@ -50,7 +50,7 @@ pub struct Scene {
     pub intersections: Vec<IntersectionTable>,
     /// Volume stippling; none: no dots.
     pub stipples: Option<Stipples>,
-    /// Strokes along the lines of curvature of an iso-surface; none: none.
+    /// Strokes along the lines of curvature of an iso-surface; none: no strokes.
     pub hatching: Option<Hatching>,
     /// Lines where an iso-surface turns away; none: none.
     pub outlines: Option<Outlines>,
@@ -58,7 +58,7 @@ pub struct Scene {
     pub surface: Option<Surface>,
     /// Opaque meshes, in their order.
     pub meshes: Vec<MeshTable>,
-    /// Which keys the scene said itself, and where. It takes no part in comparisons.
+    /// The keys that the scene gives itself, and their places. Comparisons of scenes ignore this field.
     pub given: Given,
 }
 

@@ -38,7 +38,7 @@ table! {
 /// A value of the field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Iso {
-    /// That of the surface which an automatic transfer function makes opaque.
+    /// The value of the surface that an automatic transfer function makes opaque.
     Auto,
     /// A value as the file gives it ([VAL-1]).
     Value(f64),

@@ -14,8 +14,8 @@ use serde_json::{Value as Json, json};
 table! {
     /// A table `toon`: tones with hard steps between them.
     ///
-    /// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of the
-    /// first says nothing, and the two tones of the default are those of L·N + offset > ½.
+    /// The tone of x = L·N + offset is the last one whose `at` is below x, and the first one where none is. So `at` of
+    /// the first tone has no effect, and the two tones of the default part at L·N + offset = ½.
     #[derive(Clone, Debug, PartialEq)]
     pub struct ToonShading {
         /// Added to L·N. With the two default tones, 0 ends the light at 60° from it, 0.5 at 90°.
@@ -45,7 +45,7 @@ table! {
 }
 
 impl ToonShading {
-    /// Whether the tone can depend on the normal: not of one tone.
+    /// Whether the tone can depend on the normal, which a single tone does not.
     pub fn reads_normals(&self) -> bool {
         self.tones.len() > 1
     }

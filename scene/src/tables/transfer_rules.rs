@@ -134,7 +134,8 @@ fn rows_stand(second: &Axis, rows: &[Row], places: &Places, check: &mut Check) {
     }
 }
 
-/// Whether a row stands at a label where it does already, or another row. Adds its labels to those `taken`.
+/// Whether a row stands at a label that is `taken` already, by this row or another one. Adds the row's labels to
+/// `taken`.
 fn stands_twice(at: &RowAt, taken: &mut BTreeSet<String>) -> bool {
     let label = |stand| match stand {
         // Zeros of both signs are one id.

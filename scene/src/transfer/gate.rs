@@ -4,8 +4,8 @@
 use super::Rows;
 use crate::tables::Axis;
 
-/// Returns the places and opacities of nodes of a function over the value, which is above 0 at least wherever the function
-/// over two quantities can be. `rounded` converts places to the number type of the samples.
+/// Returns the places and opacities of the nodes of a function over the value. It is above 0 at least wherever the
+/// function over two quantities can be above 0. `rounded` converts places to the number type of the samples.
 ///
 /// The function gives the values that rows leave clear exactly, since nodes and steps of every row are its own. If
 /// neither quantity is the value, the result is 1, or 0 if nothing is visible at all.
@@ -58,9 +58,9 @@ struct RowVisibility {
     here: bool,
 }
 
-/// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible
-/// at the lower node. At a node it is 1 if some row is visible at it. Each node stands twice, so that a step stays a
-/// step.
+/// Returns a function that is 1 between two nodes if some row is visible there. It rises from 0 if no row is visible at
+/// the lower node. At a node, the function is 1 if some row is visible at the node. Each node stands twice, so that a
+/// step stays a step.
 fn gate(lines: &[NodeRow<'_>]) -> [Vec<f64>; 2] {
     let mut at: Vec<f64> = lines.iter().flat_map(|line| line.at).copied().collect();
     at.sort_by(f64::total_cmp);

@@ -11,16 +11,16 @@ use serde::Serialize;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// The nodes of a transfer function ([STF-3]); over two quantities those of all rows, row after row ([STF-4]).
+/// The nodes of a transfer function ([STF-3]). Over two quantities, nodes stand row after row ([STF-4]).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Nodes<C> {
-    /// The value of each node, or the first of the two quantities; in non-decreasing order, in each row anew.
+    /// The value, or the first of the two quantities, at each node; in non-decreasing order within each row.
     pub at: Vec<f64>,
     /// α_u of each node, per reference length.
     pub opacity: Vec<f64>,
     /// The appearance of each node: an index j into the distinct styles, or a linear straight colour.
     pub color: Vec<C>,
-    /// i of each of `at` and `opacity`, where those are entries of a table and not nodes; none: they are the nodes.
+    /// i of each entry of `at` and `opacity` if these are a table; none: `at` and `opacity` are the nodes themselves.
     pub index: Option<Vec<f64>>,
     /// The nodes as rows of a function over two quantities. None: the nodes are one line over the value.
     pub rows: Option<Rows>,
@@ -62,7 +62,7 @@ pub enum FunctionError {
     UnknownLabel {
         /// The name.
         name: String,
-        /// The row that stands at it; none where a distance to it is asked for.
+        /// The row that stands at the label; none where the scene asks for a distance to the label.
         row: Option<usize>,
     },
     /// Two rows stand at one label, by its name and by its id or another name.
@@ -76,7 +76,7 @@ pub enum FunctionError {
 }
 
 impl Function {
-    /// The function that shows nothing: of a scene that does not draw the volume itself.
+    /// The function that shows nothing, for a scene that does not draw the volume itself.
     pub fn nothing() -> Self {
         Self::Regular(Nodes { at: vec![0.0], opacity: vec![0.0], color: vec![[0.0; 3]], index: None, rows: None })
     }
@@ -156,7 +156,7 @@ impl Function {
         }))
     }
 
-    /// i of each entry of a table and the number N of nodes, where the function is one.
+    /// If the function is a table: i of each entry, and the number N of nodes.
     #[inline]
     pub fn table(&self) -> Option<(&[f64], usize)> {
         let (index, nodes) = match self {
@@ -201,15 +201,15 @@ impl Function {
 }
 
 impl Rows {
-    /// The nodes of each row, of `nodes` in all.
+    /// The range of each row's nodes, of `nodes` in all.
     pub fn spans(&self, nodes: usize) -> impl Iterator<Item = Range<usize>> {
         let ends = self.first.iter().skip(1).copied().chain([nodes]);
         self.first.iter().copied().zip(ends).map(|(first, end)| first..end)
     }
 }
 
-/// The order in which rows are kept, and the position of each row then: as written, but labels by their ids. A row that
-/// several labels share is repeated for each of them.
+/// The order and positions of rows: as written, but rows of labels are sorted by id. A row that several labels share is
+/// repeated for each.
 fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<usize>, Vec<f64>), Vec<FunctionError>> {
     // Where, which row, and whether it says so by a name.
     let (mut places, mut wrong): (Vec<(f64, usize, bool)>, _) = (Vec::with_capacity(rows.len()), Vec::new());
@@ -238,8 +238,8 @@ fn standing(rows: &[Row], id_of: &dyn Fn(&str) -> Option<u32>) -> Result<(Vec<us
 
 /// Whether a piecewise-linear opacity is above 0 somewhere on [lo, hi].
 ///
-/// On a closed range it is 0 throughout exactly if both nodes of every segment that overlaps the range have opacity 0,
-/// and every node that the range touches. All nodes at one value count. Rounding keeps nodes in order.
+/// It is 0 on the whole closed range exactly if these nodes have opacity 0: every node in the range, and both ends of
+/// every segment that overlaps it. All nodes at one value count. Rounding keeps nodes in order.
 pub fn can_be_above_zero(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounded: impl Fn(f64) -> f64) -> bool {
     // Without a node nothing is shown; that it is no function is said where the nodes are evaluated.
     let Some(end) = at.len().checked_sub(1) else { return false };
@@ -252,9 +252,8 @@ pub fn can_be_above_zero(at: &[f64], opacity: &[f64], [lo, hi]: [f64; 2], rounde
     opacity.get(first..=last).is_some_and(|between| between.iter().any(|&a| a > 0.0))
 }
 
-/// The places of a transfer function's nodes in its unit, each with the value of the volume that it stands for
-/// ([VS-11]): in ascending order, each once. None in the unit of values, and for a function without nodes over the
-/// value.
+/// The places of a transfer function's nodes in the function's unit, each with its value in the volume ([VS-11]); in
+/// ascending order, each once. Empty if the unit is that of values, or if no nodes are over the value.
 pub fn node_values(transfer: &Transfer, range: [f64; 2], volume: &Volume) -> Vec<[f64; 2]> {
     let mut at: Vec<f64> = match (transfer.unit, transfer.over.axes()) {
         (Unit::Value, _) => Vec::new(),

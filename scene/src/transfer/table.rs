@@ -6,9 +6,9 @@
 pub(super) struct Entries {
     /// The value of entry k of n: lo + (k + ½)(hi − lo)/n, the centre of a texel.
     pub(super) at: Vec<f64>,
-    /// α_u there.
+    /// α_u of each entry.
     pub(super) opacity: Vec<f64>,
-    /// i there, from 0 to N − 1 for N nodes.
+    /// i of each entry, from 0 to N − 1 for N nodes.
     pub(super) index: Vec<f64>,
 }
 

@@ -8,8 +8,8 @@ use glam::{DMat3, DVec3};
 
 impl Orbit {
     /// The camera of a frame: `first`, the view that `camera` makes of a volume, turned as a whole about `camera.up` by
-    /// `degrees`·frame/`frames`. The axis passes through the camera's target, or through the centre of the volume's box
-    /// if it has none. Frame 0 is `first` itself. Turns by multiples of 90° have an exact sine and cosine.
+    /// `degrees`·frame/`frames`. The axis passes through the camera's target, or, without a target, through the centre
+    /// of the volume's box. Frame 0 is `first` itself. Turns by multiples of 90° have an exact sine and cosine.
     pub fn view(&self, first: &View, camera: &Camera, grid: &Grid, frame: usize) -> View {
         let [cos, sin] = turn(self.degrees * frame as f64 / self.frames as f64);
         if [cos, sin] == [1.0, 0.0] {
@@ -29,7 +29,7 @@ impl Orbit {
     }
 }
 
-/// Cosine and sine of an angle in degrees. Quarters of a turn are taken off before, so that what they are is exact.
+/// Cosine and sine of an angle in degrees. Quarter turns are subtracted first, so that multiples of 90° are exact.
 fn turn(degrees: f64) -> [f64; 2] {
     // Both are exact: a remainder, and a difference of numbers less than a factor of 2 apart or else of a small multiple
     // of 90.

@@ -10,9 +10,9 @@ use serde::Serialize;
 pub struct Histogram {
     /// Lower end of the first bin.
     pub lo: f64,
-    /// Upper end of the last bin, which belongs to it.
+    /// Upper end of the last bin. This value belongs to the bin.
     pub hi: f64,
-    /// Values in each bin; a value on an edge is in the upper of the two.
+    /// Number of values in each bin. A value on an edge is in the upper bin.
     pub bins: Vec<u64>,
 }
 
@@ -48,7 +48,7 @@ fn bin(value: f64, [lo, hi]: [f64; 2], bins: usize) -> usize {
     ((t * bins as f64) as usize).min(bins.saturating_sub(1))
 }
 
-/// Counts the voxels that are not masked in so many bins; `bin` says in which one a stored number belongs, if in any.
+/// Counts the voxels that are not masked in `bins` bins. `bin` gives the bin of a stored number, if it has one.
 fn sums<A: Access>(
     volume: &Volume,
     access: A,

@@ -11,11 +11,11 @@ use std::path::Path;
 /// Bins of the histogram.
 const BINS: usize = 64;
 
-/// The percentiles that are told.
+/// The percentiles of the report.
 const PERCENTS: [f64; 9] = [1.0, 5.0, 10.0, 25.0, 50.0, 75.0, 90.0, 95.0, 99.0];
 
 /// A volume in numbers. Values are after slope and intercept ([VAL-1]); lengths are in the file's own world units.
-/// `Display` prints it for a person, serialized it is the object of `--json`.
+/// `Display` prints the report for a person. Serialized, it is the object of `--json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Info {
     /// The file, as it was named.
@@ -54,7 +54,7 @@ pub struct Info {
 /// A quantile of the values.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Percentile {
-    /// The share of the values that are not above it, in percent.
+    /// The share of the values that are at most `value`, in percent.
     pub percent: f64,
     /// The value.
     pub value: f64,
@@ -140,7 +140,7 @@ fn size(bytes: usize) -> String {
     }
 }
 
-/// One character a bin, its height the logarithm of the count; a blank where there is none.
+/// One character a bin, whose height shows the logarithm of the count. An empty bin is a blank.
 fn bars(counts: &[u64]) -> String {
     const HEIGHTS: [char; 9] = [' ', '▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
     let height = |count: u64| math::ln_1p(count as f64);

@@ -1,4 +1,4 @@
-//! Volumes: voxels in the file's own type on a [`Grid`], with what is not finite filled and masked.
+//! Volumes: voxels in the file's own type on a [`Grid`]. Voxels that are not finite are filled and masked.
 
 // First, since the macro that it defines is known only to what follows.
 #[macro_use]
@@ -76,7 +76,7 @@ impl Anatomy {
         }
     }
 
-    /// A grid of one world in another world ([SPACE-2]): axes that point the other way are flipped. If one of the
+    /// Converts a grid from one world to another ([SPACE-2]): axes that point the other way are flipped. If one of the
     /// worlds has no name, the grid is unchanged.
     pub fn between(grid: &Grid, from: Option<Self>, to: Option<Self>) -> Grid {
         match (from, to) {
@@ -98,7 +98,7 @@ pub struct Volume {
     anatomy: Option<Anatomy>,
 }
 
-/// A volume that cannot be.
+/// A fault that makes a volume impossible.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VolumeError {
     /// The grid and the voxels disagree.
@@ -151,8 +151,8 @@ impl Volume {
         Self { anatomy, ..self }
     }
 
-    /// A volume on the same grid: 1 where the value is above 0, and 0 elsewhere. It is the picture of a volume of
-    /// labels.
+    /// A volume on the same grid: 1 where the value is above 0, and 0 elsewhere. Volumes of labels are drawn as this
+    /// mask.
     pub fn present(&self) -> Self {
         let (slope, intercept) = (self.slope, self.intercept);
         let dims = self.dims();
@@ -168,7 +168,7 @@ impl Volume {
         Self { grid: self.grid.clone(), voxels, slope: 1.0, intercept: 0.0, mask: self.mask.clone(), range, ..*self }
     }
 
-    /// Takes the least value in the volume as that of some voxels, or the greatest. Slope, range and mask stay.
+    /// Gives some voxels the least value of the volume, or the greatest. Slope, range and mask stay.
     fn flatten(&mut self, is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
         // A negative slope turns the order of the stored numbers round.
         let highest = to_highest == (self.slope > 0.0);

@@ -11,11 +11,11 @@ use glam::DVec3;
 /// The parts that are kept.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Keep {
-    /// So many of the largest.
+    /// The given number of largest parts.
     Largest(usize),
-    /// Those with at least this share of the largest part's voxels.
+    /// The parts with at least this share of the largest part's voxels.
     Share(f64),
-    /// The one at a point of the world.
+    /// The part at a point of the world.
     At(DVec3),
 }
 
@@ -127,8 +127,8 @@ impl Parts {
         }
     }
 
-    /// The part at a point of the world: that of the nearest voxel with a part, among the eight around the point. A
-    /// surface lies between voxels that are shown and voxels that are not.
+    /// The part at a point of the world: the part of the nearest voxel that has one, among the eight voxels around the
+    /// point. Points of a surface lie between voxels that are shown and voxels that are not.
     fn part_at(&self, point: DVec3, volume: &Volume) -> Option<usize> {
         let grid = volume.grid();
         let index = grid.to_index(point);
@@ -271,7 +271,7 @@ impl Bits {
         range.for_each(|i| self.0[i / 64] |= 1 << (i % 64));
     }
 
-    /// Clears the bits that another one has.
+    /// Clears the bits that are set in `other`.
     fn remove(&mut self, other: &Self) {
         self.0.iter_mut().zip(&other.0).for_each(|(mine, theirs)| *mine &= !theirs);
     }

@@ -1,9 +1,9 @@
-//! Quantiles and order statistics of more numbers than are kept ([VAL-2]).
+//! Quantiles and order statistics of numbers that are not all kept in memory ([VAL-2]).
 
 use super::histogram::added;
 use crate::parallel;
 
-/// A number whose order is that of a key of as many bits.
+/// A number that maps to an integer key of as many bits, in the same order.
 pub trait Key: Copy + Send {
     /// Bits of a key.
     const BITS: u32 = 8 * size_of::<Self>() as u32;
@@ -49,9 +49,9 @@ key! {
         |k| f64::from_bits(if k >> 63 == 0 { !k } else { k ^ (1 << 63) });
 }
 
-/// The index, from 0, of the quantile q of n > 0 numbers in ascending order: that of the ⌈qn⌉-th, or of the first for q
-/// = 0 ([VAL-2]). A product within rounding of an integer counts as that integer, so that q = 0.07 of 100 is the
-/// seventh.
+/// The index, from 0, of the quantile q of n > 0 numbers in ascending order: the index of the ⌈qn⌉-th number, or of the
+/// first number for q = 0 ([VAL-2]). A product within rounding of an integer counts as that integer, so that q = 0.07
+/// of 100 is the seventh.
 pub fn rank(q: f64, n: usize) -> usize {
     let product = q * n as f64;
     let whole = product.round();
@@ -60,7 +60,7 @@ pub fn rank(q: f64, n: usize) -> usize {
     (place as usize).clamp(1, n) - 1
 }
 
-/// Returns the quantile q of numbers, without interpolation, and none if there is no number. See [`select`] for `parts`,
+/// Returns the quantile q of numbers, without interpolation; none if there is no number. See [`select`] for `parts`,
 /// `work` and `fill`.
 pub fn quantile<N: Key, W>(
     parts: usize,

@@ -11,7 +11,7 @@ use crate::space::Grid;
 pub struct Selection {
     grid: Grid,
     anatomy: Option<Anatomy>,
-    /// The memberships. Whoever modifies them keeps them in [0, 1].
+    /// The memberships, in [0, 1]. Callers that modify them keep this range.
     pub memberships: BrickedVolume<f64>,
 }
 
@@ -22,8 +22,8 @@ impl Selection {
         Self { grid: volume.grid().clone(), anatomy: volume.anatomy(), memberships }
     }
 
-    /// Takes the values of a volume for memberships: clamped to [0, 1], never divided. Voxels that are not finite in the
-    /// file have membership 0.
+    /// Makes a selection whose memberships are the values of a volume, clamped to [0, 1] and not rescaled. Voxels that
+    /// are not finite in the file have membership 0.
     ///
     /// # Errors
     /// Memory that the budget does not allow.
@@ -37,7 +37,7 @@ impl Selection {
         Ok(Self { grid: volume.grid().clone(), anatomy: volume.anatomy(), memberships })
     }
 
-    /// The voxels that have one of some labels: membership 1 or 0.
+    /// The voxels with one of some labels have membership 1, all others 0.
     ///
     /// # Errors
     /// Memory that the budget does not allow.

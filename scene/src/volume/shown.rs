@@ -1,4 +1,4 @@
-//! Which stored values are shown: asked of a function of the value, or looked up where there are few of them.
+//! The test whether a stored value is shown: by a function of the value, or by a table if there are few values.
 
 use super::Volume;
 
@@ -16,7 +16,7 @@ pub struct ShownValues<'a> {
 }
 
 impl<'a> ShownValues<'a> {
-    /// Asks which values of a volume are shown. Integers of few values are asked about once each.
+    /// Prepares the test for a volume. If the stored integers have few values, `is_shown` is called once for each.
     pub fn new(volume: &Volume, is_shown: &'a (dyn Fn(f64) -> bool + Sync)) -> Self {
         let (slope, intercept) = (volume.slope(), volume.intercept());
         let [lowest, highest] = volume.voxels().range();

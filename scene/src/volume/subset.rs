@@ -1,4 +1,4 @@
-//! Less of a volume: a box of its voxels, and every n-th of them ([VOL-1]).
+//! Subsets of a volume: a box of its voxels, and every n-th voxel in the box ([VOL-1]).
 
 use crate::space::{Grid, SpaceError};
 use std::ops::Range;
@@ -86,7 +86,7 @@ impl KeptVoxels {
         self.dims.iter().product()
     }
 
-    /// Whether no voxel is kept, as of a volume without voxels.
+    /// Whether no voxel is kept. This happens only for a volume without voxels.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -98,7 +98,7 @@ impl KeptVoxels {
         std::array::from_fn(|axis| self.first[axis] + self.stride[axis] * kept[axis])
     }
 
-    /// Returns the grid of the kept voxels of a grid: each stays where it is in the world.
+    /// Returns the grid of the kept voxels. Each kept voxel stays where it is in the world.
     ///
     /// # Errors
     /// Strides that stretch the axes too far apart for a grid.
@@ -113,7 +113,7 @@ impl KeptVoxels {
         Grid::new(self.dims, axes, whole.to_world(glam::DVec3::new(i, j, k)))
     }
 
-    /// Appends the kept ones of `numbers`, which are those of the volume from the linear index `from` on.
+    /// Appends the numbers of kept voxels. `numbers` are those of the volume's voxels from the linear index `from` on.
     pub fn append<T: Copy>(&self, numbers: &[T], from: usize, to: &mut Vec<T>) {
         if self.is_all() {
             to.extend_from_slice(numbers);

@@ -18,7 +18,7 @@ pub fn selected_by_value(data: &Volume, pairs: &[[f64; 2]]) -> Option<[[usize; 3
     slices.into_iter().flatten().reduce(around).map(|ends| grown(ends, data.dims()))
 }
 
-/// Whether the membership of a value is above 0. Between two pairs it is, unless both ends are 0.
+/// Whether the membership of a value is above 0. Between two pairs, it is unless both ends are 0.
 fn is_selected(pairs: &[[f64; 2]], value: f64) -> bool {
     let after = pairs.partition_point(|pair| pair[0] <= value);
     let ends = [after.checked_sub(1).map_or(pairs.first(), |before| pairs.get(before)), pairs.get(after)];

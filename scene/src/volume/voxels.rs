@@ -8,9 +8,9 @@ pub trait Voxel: Copy + Send + Sync + PartialOrd + 'static {
     fn to_f64(self) -> f64;
     /// The value in f32, rounded to the nearest.
     fn to_f32(self) -> f32;
-    /// [`to_f64`](Self::to_f64) of several, by instructions that take as many as a register holds.
+    /// [`to_f64`](Self::to_f64) of several numbers, by vector instructions.
     fn all_to_f64<const N: usize>(all: [Self; N]) -> [f64; N];
-    /// [`to_f32`](Self::to_f32) of several.
+    /// [`to_f32`](Self::to_f32) of several numbers.
     fn all_to_f32<const N: usize>(all: [Self; N]) -> [f32; N];
 }
 
@@ -211,7 +211,7 @@ impl Voxels {
         self.len() == 0
     }
 
-    /// Puts the lowest stored number, or the highest, in the place of those whose linear index is flat.
+    /// Replaces the numbers whose linear index is flat by the lowest stored number, or by the highest.
     pub(super) fn flatten(&mut self, is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
         fn put<V: Voxel>(v: &mut [V], is_flat: &(dyn Fn(usize) -> bool + Sync), to_highest: bool) {
             const RUN: usize = 1 << 12;
@@ -275,8 +275,8 @@ pub trait Access: Copy + Sync {
     /// Voxels along x, y, z.
     fn dims(&self) -> [usize; 3];
 
-    /// The `S`³ voxels from (x, y, z) on, which is the window's (0, 0, 0). The check that all lie inside the grid is
-    /// made here, once, and not for each row.
+    /// The `S`³ voxels from (x, y, z) on, which is the window's (0, 0, 0). This function checks once, and not for each
+    /// row, that all voxels lie inside the grid.
     ///
     /// # Panics
     /// If one lies outside.

@@ -89,7 +89,7 @@ pub fn write_nrrd_as(volume: &Volume, path: &Path, encoding: Encoding) -> Result
     filled.map_err(|source| WriteError { file: path.to_path_buf(), source })
 }
 
-/// Whether a value is what is stored.
+/// Whether values equal the stored numbers.
 fn as_stored(volume: &Volume) -> bool {
     volume.slope() == 1.0 && volume.intercept() == 0.0
 }

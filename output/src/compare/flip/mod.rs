@@ -8,8 +8,8 @@
 //! pixel (4.3) is ΔE = ΔE_c^(1 − ΔE_f), in [0, 1]. It is symmetric in the two pictures.
 //!
 //! The authors' tool computes in f32; this module computes in f64. FLIP's inputs are decoded sRGB files, so linear
-//! pictures are clamped to [0, 1]. That is what encoding and decoding them gives, without rounding to 8 bits. FLIP has
-//! no α: pictures that are not opaque are laid on white.
+//! pictures are clamped to [0, 1]. Encoding and decoding a picture has the same effect, apart from the rounding to 8
+//! bits. FLIP has no α: pictures that are not opaque are laid on white.
 
 mod color;
 pub(super) mod filter;
@@ -141,7 +141,7 @@ fn largest_distance() -> f64 {
     math::pow(lab_distance(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])), Q_C)
 }
 
-/// ΔE_c: distances up to p_c of the largest fill [0, p_t], the others (p_t, 1].
+/// ΔE_c: maps distances up to p_c of the largest one to [0, p_t], and larger distances to (p_t, 1].
 fn redistribute(distance: f64, largest: f64) -> f64 {
     let knee = P_C * largest;
     if distance < knee { distance * P_T / knee } else { P_T + (distance - knee) / (largest - knee) * (1.0 - P_T) }

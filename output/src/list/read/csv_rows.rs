@@ -34,7 +34,7 @@ impl CsvRows {
     }
 }
 
-/// Returns the error of a file that cannot be read on.
+/// Returns the error of a file whose rest cannot be read.
 fn broken(error: csv::Error) -> RowError {
     match error.into_kind() {
         csv::ErrorKind::Io(source) => RowError::File(source),

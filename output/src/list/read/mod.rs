@@ -41,7 +41,7 @@ impl ListColumn {
 
 /// An error that ends reading.
 enum RowError {
-    /// The file cannot be read on.
+    /// The rest of the file cannot be read.
     File(io::Error),
     /// Column or character of a row, and the fault.
     Row(String, String),
@@ -60,7 +60,7 @@ impl RowError {
 trait RowReader {
     /// Reads the next row. Returns whether there is one.
     fn next(&mut self) -> Result<bool, RowError>;
-    /// Returns the line number of the row, from 1. Before the first row it is that of the header.
+    /// Returns the line number of the row, from 1. Before the first row, it is the header's line number.
     fn line(&self) -> u64;
     /// Whether the row has a column.
     fn has(&self, column: ListColumn) -> bool;
@@ -154,7 +154,7 @@ impl<R: RowReader> ListReader<'_, R> {
         self.fault(name, fault)
     }
 
-    /// Returns a finite number for which `may` holds.
+    /// Returns the column's number if it is finite and `may` accepts it.
     fn number(&self, column: ListColumn, may: impl Fn(f64) -> bool, expected: &str) -> Result<f64, OutputError> {
         let number = self.rows.number(column);
         number.filter(|&n| n.is_finite() && may(n)).ok_or_else(|| self.wrong(column, expected))

@@ -4,13 +4,13 @@ use super::neighbours::Neighbours;
 use super::tour::Tour;
 use std::collections::VecDeque;
 
-/// Longest run of strokes that a move may reverse or pass over. Longer runs gain no more and cost their length.
+/// Longest run of strokes that a move may reverse or pass over. Longer runs take more time and gain nothing.
 const RUN: usize = 50_000;
 
 /// Most strokes that an Or-opt move takes along.
 const TAKEN: usize = 3;
 
-/// Stops a stroke that all moves together may change. Random pages need far fewer; only a contrived list ends here.
+/// Most positions that all moves may change, for each stroke. Only contrived lists reach the limit.
 const BUDGET: usize = 10_000;
 
 /// Least gain of a move, in mm: more than rounding can make.
@@ -42,7 +42,8 @@ pub(super) fn improve(tour: &mut Tour) {
     }
 }
 
-/// Makes a move that brings two strokes together, if one gains. Returns the half-open range of changed positions.
+/// Makes a move that brings two strokes together, if such a move shortens the tour. Returns the half-open range of
+/// changed positions.
 fn improving_move(tour: &mut Tour, item: usize, other: usize) -> Option<(usize, usize)> {
     let (p, q) = (tour.position(item), tour.position(other));
     two_opt(tour, p.min(q), p.max(q)).or_else(|| or_opt(tour, p, q))

@@ -17,7 +17,7 @@ pub(super) struct Tour {
 pub(super) struct TourStop {
     /// Index of the stroke.
     pub(super) item: usize,
-    /// Whether it is drawn backwards.
+    /// Whether the stroke is drawn backwards.
     pub(super) turned: bool,
 }
 

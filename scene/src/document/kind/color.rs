@@ -36,8 +36,8 @@ fn hex(digits: &str) -> Option<[u8; 4]> {
     }
 }
 
-/// The nearest colour that a scene file can say, as `#rrggbb`, or `#rrggbbaa` if it is not opaque. What
-/// [`parse_color`] read comes back to the same numbers.
+/// The nearest colour that a scene file can say, as `#rrggbb`, or `#rrggbbaa` if it is not opaque. A colour from
+/// [`parse_color`] has a text that gives the same numbers again.
 pub(crate) fn format_color([r, g, b, a]: [f64; 4]) -> String {
     let byte = |x: f64| (x.clamp(0.0, 1.0) * 255.0).round_ties_even() as u8;
     let [red, green, blue] = [r, g, b].map(|c| byte(linear_to_srgb(c)));

@@ -29,7 +29,7 @@ pub(crate) enum On {
 /// A length in the world above 0.
 pub(crate) const WORLD_LENGTH: Lengths = Lengths { on: On::World, bounds: Bounds::POSITIVE };
 
-/// Returns the length that a number in a unit is.
+/// Makes a length of a number in the unit.
 type Unit = fn(f64) -> Length;
 
 /// The units by name.
@@ -58,7 +58,8 @@ fn amount(length: Length) -> f64 {
     }
 }
 
-/// A length of the form `"2 voxels"`; else what was probably meant, if the text has a number and nearly a unit.
+/// Reads a length such as `"2 voxels"`. The error is the text that was probably meant, if the text has a number and a
+/// misspelt unit.
 fn parse(text: &str) -> Result<Length, Option<String>> {
     let unit_at = text.rfind(|c: char| c.is_ascii_digit() || c == '.').map_or(0, |i| i + 1);
     let (number, unit) = (text[..unit_at].trim(), text[unit_at..].trim());
@@ -94,7 +95,7 @@ impl Shape for Lengths {
 }
 
 impl Lengths {
-    /// Reads a length where something else may stand, too: `expected` says what.
+    /// Reads a length where other values are allowed, too. `expected` names all allowed values.
     pub(crate) fn read_as(&self, item: &Item, check: &mut Check, expected: String) -> Option<Length> {
         let length = match &item.value {
             Value::Text(text) => match parse(text) {

@@ -7,7 +7,8 @@ use crate::document::item::{Item, Value};
 use crate::document::out::Out;
 use serde_json::{Value as Json, json};
 
-/// The most items of a list whose items are effects or names of them. Every sample or every part asks each of them.
+/// The most items of a list of effects, or of names of effects. Every sample or every part of a scene evaluates each
+/// item.
 pub(crate) const FEW: usize = 256;
 
 /// The most items of a list of data, such as nodes, labels or strokes.
@@ -43,7 +44,7 @@ impl<K: Shape> Shape for ListOf<K> {
 impl<K: Kind> Kind for ListOf<K> {
     type Of = Vec<K::Of>;
 
-    /// None if any item is at fault; the faults of all are said.
+    /// Returns none if any item is at fault; the faults of all items are reported.
     fn read(&self, item: &Item, check: &mut Check) -> Option<Vec<K::Of>> {
         match item.list() {
             Some(items) if items.len() > self.most => check.too_many(&items[self.most].place, [items.len(), self.most]),

@@ -129,7 +129,7 @@ pub(crate) struct Whole {
 }
 
 impl Whole {
-    /// The whole number that the item is, if it lies in the range.
+    /// The item as a whole number, if it is one in the range.
     pub(crate) fn of(&self, item: &Item) -> Option<u64> {
         match item.value {
             Value::Whole(n) => u64::try_from(n).ok().filter(|n| (self.lo..=self.hi).contains(n)),

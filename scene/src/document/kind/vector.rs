@@ -27,7 +27,7 @@ pub(crate) enum Rule {
 }
 
 impl<const N: usize> Numbers<N> {
-    /// The numbers that the item is, if it is as many and they are as they must be.
+    /// The item as `N` numbers, if it has as many and they obey the rules.
     pub(crate) fn of(&self, item: &Item) -> Option<[f64; N]> {
         let numbers: Option<Vec<f64>> = item.list()?.iter().map(Item::number).collect();
         let numbers: [f64; N] = numbers?.try_into().ok()?;
@@ -71,7 +71,7 @@ impl<const N: usize> Kind for Numbers<N> {
     }
 }
 
-/// `N` whole numbers whose product is bounded too, so that what is allocated for them is.
+/// `N` whole numbers whose product is bounded, too, so that an allocation of this size is bounded.
 pub(crate) struct Wholes<const N: usize> {
     /// The value in words: `a size [width, height]`.
     pub(crate) what: &'static str,
@@ -83,7 +83,7 @@ pub(crate) struct Wholes<const N: usize> {
 }
 
 impl<const N: usize> Wholes<N> {
-    /// The numbers that the item is, if it is as many and they are as they must be.
+    /// The item as `N` numbers, if it has as many and they obey the rules.
     pub(crate) fn of(&self, item: &Item) -> Option<[usize; N]> {
         let numbers: Option<Vec<u64>> = item.list()?.iter().map(|item| self.each.of(item)).collect();
         let numbers: [u64; N] = numbers?.try_into().ok()?;

@@ -1,4 +1,5 @@
-//! Files of meshes: PLY, STL and OBJ, by their suffix. Readers of others do the parsing; what they hand over is checked.
+//! Files of meshes: PLY, STL and OBJ, by their suffix. Crates of other authors parse the files; their results are
+//! checked.
 
 mod obj;
 mod ply;
@@ -29,7 +30,7 @@ pub enum MeshReason {
     Unreadable(String),
     /// A suffix of no format that is read.
     Suffix,
-    /// Text or bytes that the format does not have, by the parser's message.
+    /// Text or bytes that the format does not allow, with the parser's message.
     Malformed(String),
     /// Numbers that make no mesh.
     Fault(MeshFault),

@@ -5,7 +5,7 @@ use crate::mesh::TriangleMesh;
 use glam::DVec3;
 use tobj::{LoadError, LoadOptions};
 
-/// Reads a file; its objects and groups become one mesh. Normals count if all of them have some.
+/// Reads a file; its objects and groups become one mesh. Normals are used if all of these parts have some.
 pub(super) fn parse(bytes: Vec<u8>) -> Result<TriangleMesh, MeshReason> {
     // One index for positions and normals. Points and lines are no surface.
     let options = LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };

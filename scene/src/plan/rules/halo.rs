@@ -89,7 +89,7 @@ fn needs(halo: &Halo, scene: &Scene, effect: &str, asks: &mut Asks) {
     }
 }
 
-/// Lists the keys of a halo that say nothing beside its others.
+/// Lists the keys of a halo that other keys of the halo make idle.
 fn idle_keys(halo: &Halo, idle: &mut Idle) {
     let at = idle.at.clone();
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);

@@ -38,7 +38,7 @@ const DIRECTION_RULES: &[&str] = &["raw", "scaled"];
 const SOURCES: &[&str] = &["stored", "hessian"];
 
 impl Hatching {
-    /// Whether every stroke is drawn with one width: that of a pen, or what the spacing reckons with.
+    /// Whether every stroke has one width: the pen's, or the width that the spacing assumes.
     pub fn has_one_width(&self) -> bool {
         self.pen.is_some() || self.spacing != Spacing::Random
     }
@@ -48,7 +48,7 @@ impl Hatching {
         self.directions.rule == DirectionRule::Raw
     }
 
-    /// How strokes are lit: a pen has one colour, and so have strokes whose tone is in their spacing.
+    /// The lighting of strokes; none if strokes have one colour, as with a pen or with tone by spacing.
     pub fn lighting(&self, scene: &Scene) -> Option<LineLighting> {
         self.lighting.filter(|_| !self.has_one_width() && !has_plotter(scene))
     }
@@ -63,12 +63,12 @@ impl Hatching {
         self.stroke.taper.unwrap_or(if self.style == HatchStyle::Engraving { 0.0 } else { 0.15 })
     }
 
-    /// Whether opacity is the tone's: that of a pen's ink is 1.
+    /// Whether the tone sets the opacity of strokes. The opacity of a pen's ink is 1.
     pub fn is_pencil(&self, scene: &Scene) -> bool {
         self.style == HatchStyle::Pencil && !self.has_one_width() && !has_plotter(scene)
     }
 
-    /// Whether strokes are inside the picture of the volume, where it is drawn: a plotter draws no picture.
+    /// Whether strokes are inside the picture of the volume. A plotter draws no picture.
     pub fn is_merged(&self, scene: &Scene) -> bool {
         self.hidden == Hidden::Merged && scene.draws_volume() && !has_plotter(scene)
     }
@@ -135,7 +135,7 @@ fn asks(scene: &Scene, asks: &mut Asks) {
     }
 }
 
-/// Keys that its own neighbours make idle.
+/// Lists the keys that other keys of the table make idle.
 fn idle(scene: &Scene, plan: &Plan, idle: &mut Idle) {
     let Some(hatching) = &scene.hatching else { return };
     if hatching.pen.is_some() {

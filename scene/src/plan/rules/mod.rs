@@ -31,9 +31,9 @@ pub(crate) struct Rules {
     table: &'static str,
     /// The number of items, if the table is one of a list.
     items: Option<fn(&Scene) -> usize>,
-    /// Says what the table's effect needs.
+    /// Asks for the needs of the table's effect.
     pub(super) asks: fn(&Scene, &mut Asks),
-    /// Says what the table has to provide, once every effect has said what it needs.
+    /// Asks for the work that the table must do for the effects, after all effects have asked.
     pub(super) serves: fn(&Scene, &mut Asks),
     /// Lists the table's keys that have no effect beside their neighbours, given all that the plan needs.
     pub(super) idle: fn(&Scene, &Plan, &mut Idle),

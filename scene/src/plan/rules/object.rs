@@ -62,8 +62,8 @@ pub(super) const INTERSECTION: Rules = Rules {
 /// A selection or a ghost, by the place of its object; none: the background.
 type Side = Option<(usize, Role)>;
 
-/// The needs of the looks that an intersection's sets have, each with the set that shades by it: a style is drawn by the normal,
-/// κ and |g| of the set with the larger μ ([VS-4]).
+/// The needs of the materials of an intersection's sets, each with the set at whose samples the need arises. A style is
+/// drawn by the normal, κ and |g| of the set with the larger μ ([VS-4]).
 fn meeting(scene: &Scene, item: usize) -> Vec<(Side, Need)> {
     let table = &scene.intersections[item];
     let Some(object) = scene.objects.iter().position(|object| object.name == table.object) else { return Vec::new() };
@@ -83,7 +83,7 @@ fn meeting(scene: &Scene, item: usize) -> Vec<(Side, Need)> {
 }
 
 impl Plan {
-    /// Adds what a part is asked for where it meets other looks.
+    /// Adds the needs of the materials that a part meets, at samples where the part shades them.
     pub fn add_meetings(&mut self, scene: &Scene, object: usize, role: Role) {
         let of_object = |table: &IntersectionTable| table.object == scene.objects[object].name;
         let items = (0..scene.intersections.len()).filter(|&item| of_object(&scene.intersections[item]));
@@ -129,7 +129,7 @@ fn acts(object: &ObjectTable, key: &str) -> bool {
     key == "ghosting" || object.motion.is_moved()
 }
 
-/// Lists the keys of an object that say nothing beside its others. `seeds_labels` says that a halo reads its labels.
+/// Lists the keys of an object that its other keys make idle. `seeds_labels`: whether a halo reads the object's labels.
 fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
     let at = idle.at.clone();
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
@@ -149,7 +149,7 @@ fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
     }
 }
 
-/// Why an intersection has no effect; none if it has one.
+/// The reason why an intersection has no effect; none if it has one.
 fn why_idle(scene: &Scene, item: usize) -> Option<&'static str> {
     let table = scene.intersections.get(item)?;
     let object = scene.objects.iter().find(|object| object.name == table.object)?;

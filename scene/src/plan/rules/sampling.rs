@@ -83,7 +83,7 @@ pub(super) const RULES: Rules = Rules {
     ..Rules::new("sampling")
 };
 
-/// Why what only rays read does nothing.
+/// The reason why keys that only rays read have no effect.
 const NOT_DRAWN: &str = "the volume itself is not drawn";
 
 /// Settings of `step`.
@@ -93,7 +93,7 @@ const STEPS: &[&str] =
 /// Settings of `scale`.
 const SCALES: &[&str] = &["4 voxels", "2 voxels", "1 voxel", "0.5 voxels"];
 
-/// Settings of what only rays read.
+/// Settings of a key that only rays read.
 fn of_rays(plan: &Plan, settings: Settings) -> Settings {
     if plan.has_pass(Pass::Rays) { settings } else { &[] }
 }
@@ -101,7 +101,7 @@ fn of_rays(plan: &Plan, settings: Settings) -> Settings {
 /// Passes that read the field between voxels: points and lines without a surface lie on the voxels alone.
 const BETWEEN_VOXELS: [Pass; 4] = [Pass::Rays, Pass::HiddenPoints, Pass::Outlines, Pass::Strokes];
 
-/// Settings of `kernel`: where the Hessian is the kernel's own, those that have one.
+/// Settings of `kernel`. If the Hessian is the kernel's own, only kernels that have one are listed.
 fn kernels(scene: &Scene, plan: &Plan) -> Settings {
     match scene.sampling.hessian {
         _ if !BETWEEN_VOXELS.iter().any(|pass| plan.has_pass(*pass)) => &[],
@@ -110,8 +110,8 @@ fn kernels(scene: &Scene, plan: &Plan) -> Settings {
     }
 }
 
-/// Settings of `gradient`, where there is one. The derivative of the trilinear kernel is of order one, central
-/// differences are of order two; those of the other kernels are closer than central differences.
+/// Settings of `gradient`, if something reads a gradient. The derivative of the trilinear kernel is of order one,
+/// central differences are of order two; those of the other kernels are closer than central differences.
 fn gradients(scene: &Scene, plan: &Plan) -> Settings {
     match scene.sampling.kernel {
         _ if !plan.reads_gradients() => &[],
@@ -130,7 +130,8 @@ fn strokes_read_hessians(scene: &Scene, has_strokes: bool) -> bool {
     has_strokes && scene.hatching.as_ref().is_some_and(|hatching| hatching.reads_hessians())
 }
 
-/// Settings of `hessian`, where there is one. What rounds its values to integers is best smoothed ([REC-3]).
+/// Settings of `hessian`, if something reads a Hessian. Values that are rounded to integers are best smoothed
+/// ([REC-3]).
 fn hessians(scene: &Scene, plan: &Plan) -> Settings {
     let smoothed = plan.has_pass(Pass::SmoothedCoefficients);
     match (scene.sampling.kernel.is_twice_differentiable(), smoothed) {

@@ -48,7 +48,7 @@ pub(super) fn lit_surface(scene: &Scene) -> bool {
     !scene.meshes.is_empty() || scene.surface.as_ref().is_some_and(|surface| lit(surface.look))
 }
 
-/// Whether its transfer function has colours, which light falls on.
+/// Whether the scene's transfer function has colours, which are lit.
 fn is_regular(scene: &Scene) -> bool {
     scene.transfer.as_ref().is_some_and(|transfer| transfer.kind == TransferKind::Regular)
 }
@@ -58,7 +58,7 @@ pub(super) fn lit(scene: &Scene) -> bool {
     is_regular(scene) || lit_surface(scene)
 }
 
-/// Which keys say nothing although something is lit.
+/// Lists the keys that have no effect although something is lit.
 fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     let regular = is_regular(scene);
     let glossy =
@@ -96,7 +96,7 @@ fn idle_keys(scene: &Scene, shading: &Shading, idle: &mut Idle) {
     }
 }
 
-/// Which constants of Blinn–Phong nothing reads, where no surface does.
+/// Lists the constants of Blinn–Phong that nothing reads, if no surface reads them.
 fn idle_constants(shading: &Shading, regular: bool, idle: &mut Idle) {
     const SHARES: [&str; 2] = ["shading.ambient", "shading.diffuse"];
     const HIGHLIGHT: [&str; 2] = ["shading.specular", "shading.shininess"];

@@ -24,7 +24,7 @@ pub(super) const RULES: Rules = Rules {
     ..Rules::new("stipples")
 };
 
-/// Settings of what points are made by.
+/// Settings of a key by which points are made.
 fn of_points(plan: &Plan, settings: Settings) -> Settings {
     if plan.has_pass(Pass::StipplePoints) { settings } else { &[] }
 }
@@ -75,7 +75,7 @@ fn asks(scene: &Scene, asks: &mut Asks) {
     }
 }
 
-/// Keys that its own neighbours make idle.
+/// Lists the keys that other keys of the table make idle.
 fn idle_keys(scene: &Scene, idle: &mut Idle) {
     let Some(stipples) = &scene.stipples else { return };
     if stipples.iso.is_some() {

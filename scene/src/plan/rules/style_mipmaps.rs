@@ -41,7 +41,7 @@ pub(super) const RULES: Rules = Rules {
 
 impl StyleMipmaps {
     /// b_κ as far as the scene has a κ: `kappa` of `[contours]` is the κ of the bias, too, so with `kappa = "none"`
-    /// there is no curvature to be biased by. Without `[contours]` it is the one along the ray.
+    /// there is no curvature to be biased by. Without `[contours]`, the κ is the one along the ray.
     pub fn measured_curvature_bias(&self, scene: &Scene) -> f64 {
         match scene.contours.as_ref().map(|contours| contours.kappa) {
             Some(Kappa::None { .. }) => 0.0,
@@ -60,7 +60,7 @@ fn has_kappa(scene: &Scene) -> bool {
     scene.contours.as_ref().is_none_or(|contours| !matches!(contours.kappa, Kappa::None { .. }))
 }
 
-/// Settings of a bias, where there are mip-maps: the larger, the coarser the level.
+/// Settings of a bias, if there are mip-maps. A larger bias gives a coarser level.
 fn biases(_: &Scene, plan: &Plan) -> Settings {
     if plan.has_pass(Pass::StyleMipmaps) { &["4", "2", "1", "0"] } else { &[] }
 }

@@ -95,7 +95,8 @@ choices! {
 }
 
 impl Seeding {
-    /// Whether seeds are those of the transfer function's opacity: written, or because none of the four factors is.
+    /// Whether the transfer function's opacity seeds the halo: as the scene says, or because it has none of the four
+    /// factors.
     pub fn is_by_opacity(&self) -> bool {
         match &self.value {
             Some(value) => *value == SeedValue::Opacity,

@@ -103,7 +103,7 @@ impl Exponents {
 }
 
 impl HaloKind {
-    /// How seeds come together where a scene does not say it.
+    /// Returns the default of `accumulate` for this kind.
     pub fn accumulation(self) -> HaloAccumulation {
         match self {
             Self::Emissive => HaloAccumulation::Mean,
@@ -118,7 +118,7 @@ impl Halo {
         self.object.as_ref().is_none_or(|own| own == part)
     }
 
-    /// The halo with the name that a halo without one has at its place in the list.
+    /// Returns the halo with a name. A halo without a name gets one from its place in the list.
     pub(crate) fn named(self, place: usize) -> Self {
         if self.name.is_empty() { Self { name: format!("halo {place}"), ..self } } else { self }
     }

@@ -47,7 +47,7 @@ impl Motion {
     /// No motion.
     pub const NONE: Self = Self { shift: DVec3::ZERO, scale: DVec3::ONE, rotation: None, center: None, matrix: None };
 
-    /// Whether the scene moves the selection, as written: a rotation by 360° is a motion.
+    /// Whether the scene gives the selection a motion. A rotation by 360° is a motion, too.
     pub fn is_moved(&self) -> bool {
         self.shift != DVec3::ZERO
             || self.scale != DVec3::ONE
@@ -75,7 +75,7 @@ impl Motion {
         DAffine3 { matrix3: linear, translation }
     }
 
-    /// Whether M flattens space, or is not finite: it has no inverse.
+    /// Whether M has no inverse: M flattens space, or is not finite.
     pub fn is_singular(&self) -> bool {
         let linear = self.linear();
         let [largest, _, smallest] = singular_values(linear);

@@ -11,7 +11,7 @@ use std::fmt;
 /// The name of a part of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PartName {
-    /// `"background"`: the volume of `[volume]`, with all that is drawn of it.
+    /// `"background"`: the volume of `[volume]`, with everything that is drawn of it.
     Background,
     /// `"NAME"`: the selection of the object with that name.
     Selection(String),

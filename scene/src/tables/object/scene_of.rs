@@ -25,9 +25,9 @@ impl Scene {
         })
     }
 
-    /// The scene of a part: the object's data and look in place of the picture's, without other objects and without what is
-    /// drawn of `[volume]` alone. A table that the part does not have is the object's, or else the picture's. Halos keep
-    /// their places; those that the part does not seed have no effect.
+    /// The scene of a part: the object's data and material replace the picture's. Other objects, and effects that are
+    /// drawn of `[volume]` alone, are left out. A table that the part does not have is the object's, or else the
+    /// picture's. Halos keep their places; halos that the part does not seed have no effect.
     pub fn of_part(&self, object: usize, role: Role) -> Self {
         let table = &self.objects[object];
         let ghost = table.ghost.as_ref().filter(|_| role == Role::Ghost);
@@ -58,7 +58,7 @@ impl Scene {
         scene
     }
 
-    /// The place of the object whose own data a part is drawn of; none: it is drawn of `[volume]`.
+    /// The index of the object whose own data a part is drawn of; none if the part is drawn of `[volume]`.
     pub fn own_data_of(&self, part: &PartName) -> Option<usize> {
         let (PartName::Selection(name) | PartName::Ghost(name)) = part else { return None };
         self.objects.iter().position(|object| object.name == *name && object.volume.is_some())
@@ -87,7 +87,8 @@ impl Scene {
         self.with_transfer(self.transfer.as_ref())
     }
 
-    /// The scene without objects and with a transfer function. What is left out is not copied: every part has such a scene.
+    /// The scene without objects and with a transfer function. Every part has such a scene, so the tables that are left
+    /// out are not copied.
     fn with_transfer(&self, transfer: Option<&Transfer>) -> Self {
         Self {
             light: self.light,
@@ -117,8 +118,8 @@ impl Scene {
         }
     }
 
-    /// The styles of a part: name by name, those of the ghost over the object's over the picture's.
-    /// A theme replaces another if the scene says it.
+    /// The styles of a part. For each name, a style of the ghost replaces the object's, and that replaces the
+    /// picture's. A theme replaces another if the scene gives it.
     pub(crate) fn styles_of(&self, object: usize, is_ghost: bool, says: &dyn Fn(&str) -> bool) -> Styles {
         let table = &self.objects[object];
         let of_ghost = table.ghost.as_ref().filter(|_| is_ghost).and_then(|ghost| ghost.styles.as_ref());

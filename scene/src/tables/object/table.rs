@@ -121,7 +121,7 @@ impl ObjectTable {
         own.chain(transfers.flat_map(Transfer::volumes)).chain(styles.flat_map(Styles::paths))
     }
 
-    /// The object with the name that an object without one has at its place in the list.
+    /// Returns the object with a name. An object without a name gets one from its place in the list.
     pub(crate) fn named(self, place: usize) -> Self {
         if self.name.is_empty() { Self { name: format!("object {place}"), ..self } } else { self }
     }

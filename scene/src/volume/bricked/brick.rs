@@ -1,4 +1,4 @@
-//! One brick: its voxels, and what is known of them without reading them.
+//! One brick: its voxels, and their precomputed range, box and hash.
 
 use crate::volume::Voxel;
 
@@ -18,7 +18,7 @@ pub struct Brick<V> {
 }
 
 impl<V: Voxel> Brick<V> {
-    /// Takes the voxels of a brick of which those before `extent` lie in the volume, and measures them.
+    /// Makes a brick of voxels, and measures them. Voxels before `extent` lie in the volume.
     ///
     /// # Panics
     /// If there are not [`SIDE`]³ voxels, or no extent.
@@ -53,13 +53,13 @@ impl<V: Voxel> Brick<V> {
         self.range
     }
 
-    /// The first and the last voxel of the box of voxels that are not 0; none if all are. It counts voxels that the
-    /// border repeats.
+    /// The first and the last voxel of the smallest box around the voxels that are not 0; none if all are 0. Voxels
+    /// that the border repeats count.
     pub fn occupied(&self) -> Option<[[usize; 3]; 2]> {
         self.occupied.map(|ends| ends.map(|voxel| voxel.map(usize::from)))
     }
 
-    /// A number that equal bricks share.
+    /// The brick's hash. Equal bricks have equal hashes.
     pub(super) fn hash(&self) -> u64 {
         self.hash
     }
@@ -70,7 +70,7 @@ impl<V: Voxel> Brick<V> {
     }
 }
 
-/// Whether two values are one number: 0 and −0 are two.
+/// Whether two values are the same number. 0 and −0 differ.
 #[inline(always)]
 pub(super) fn is_same<V: Voxel>(a: V, b: V) -> bool {
     a == b && a.to_f64().to_bits() == b.to_f64().to_bits()
@@ -81,7 +81,7 @@ pub(super) fn same<V: Voxel>(a: &[V], b: &[V]) -> bool {
     a.iter().zip(b).all(|(&a, &b)| is_same(a, b))
 }
 
-/// Hashes the voxels of a brick, four side by side, since each step waits for the one before.
+/// Hashes the voxels of a brick in four chains, since each step waits for the previous one.
 pub(super) fn hash<V: Voxel>(voxels: &[V]) -> u64 {
     const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
     let mix = |hash: u64, bits: u64| (hash.rotate_left(5) ^ bits).wrapping_mul(ODD);
@@ -94,7 +94,7 @@ pub(super) fn hash<V: Voxel>(voxels: &[V]) -> u64 {
     lanes.into_iter().fold(0, mix)
 }
 
-/// Puts the last voxels inside the volume in the place of those beyond its border.
+/// Replaces the voxels beyond the volume's border by the last ones inside.
 pub(super) fn repeat_last<V: Voxel>(voxels: &mut [V], extent: [usize; 3]) {
     let [nx, ny, nz] = extent;
     if nx < SIDE {

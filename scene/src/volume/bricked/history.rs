@@ -1,4 +1,4 @@
-//! Undo and redo: a list of brick tables. Tables share the bricks that they have in common.
+//! Undo and redo: a list of brick tables. Tables share their equal bricks.
 
 use super::table::{BrickTable, BrickedVolume};
 use crate::volume::Voxel;
@@ -6,9 +6,9 @@ use crate::volume::Voxel;
 /// The states of a bricked volume, each a table of its bricks.
 #[derive(Clone, Debug)]
 pub struct History<V> {
-    /// The states from the first to the last that can be had again.
+    /// The states from the first one to the last one that can be restored.
     tables: Vec<BrickTable<V>>,
-    /// The place of the present state.
+    /// The index of the present state.
     now: usize,
 }
 
@@ -25,12 +25,12 @@ impl<V: Voxel> History<V> {
         self.now += 1;
     }
 
-    /// Gives a volume the state before. Returns whether there is one.
+    /// Restores the previous state of a volume. Returns whether there is one.
     pub fn undo(&mut self, volume: &mut BrickedVolume<V>) -> bool {
         self.go_to(self.now.checked_sub(1), volume)
     }
 
-    /// Gives a volume the state that was undone last. Returns whether there is one.
+    /// Restores the state of a volume that was undone last. Returns whether there is one.
     pub fn redo(&mut self, volume: &mut BrickedVolume<V>) -> bool {
         self.go_to(self.now.checked_add(1), volume)
     }

@@ -9,12 +9,12 @@ use std::sync::{Arc, Weak};
 #[derive(Clone, Debug)]
 pub(super) struct Pool<V> {
     bricks: HashMap<u64, Vec<Weak<Brick<V>>>>,
-    /// The number of hashes at which those of forgotten bricks are cleared away.
+    /// The number of hashes at which the hashes of forgotten bricks are removed.
     full: usize,
 }
 
 impl<V: Voxel> Pool<V> {
-    /// Hashes that are kept without clearing.
+    /// Number of hashes below which none is removed.
     const FEW: usize = 1024;
 
     /// A pool without bricks.
@@ -22,7 +22,7 @@ impl<V: Voxel> Pool<V> {
         Self { bricks: HashMap::new(), full: Self::FEW }
     }
 
-    /// The one brick of this content.
+    /// The shared brick of this content.
     pub(super) fn shared(&mut self, brick: Brick<V>) -> Arc<Brick<V>> {
         if self.bricks.len() >= self.full {
             self.bricks.retain(|_, equal| equal.iter().any(|brick| brick.strong_count() > 0));

@@ -1,4 +1,4 @@
-//! The index table of a bricked volume, and what it is asked.
+//! The index table of a bricked volume, and its queries.
 
 use super::brick::{self, Brick, SIDE, VOXELS};
 use super::pool::Pool;
@@ -105,7 +105,7 @@ impl<V: Voxel> BrickedVolume<V> {
         bytes(self.distinct_bricks(), self.table.len(), size_of::<V>())
     }
 
-    /// The place in the table, and in its brick, of a voxel.
+    /// The index of a voxel's brick in the table, and of the voxel in the brick.
     #[inline(always)]
     fn place(&self, [x, y, z]: [usize; 3]) -> (usize, usize) {
         let brick = (z / SIDE * self.bricks[1] + y / SIDE) * self.bricks[0] + x / SIDE;
@@ -148,7 +148,7 @@ impl<V: Voxel> BrickedVolume<V> {
             .fold(self.table[0].range(), |[lo, hi], [a, b]| [if a < lo { a } else { lo }, if b > hi { b } else { hi }])
     }
 
-    /// The first and the last voxel of the box of values that are not 0; none if all are.
+    /// The first and the last voxel of the smallest box around the values that are not 0; none if all are 0.
     pub fn occupied(&self) -> Option<[[usize; 3]; 2]> {
         let boxes = self.table.iter().enumerate().filter_map(|(i, brick)| {
             let [nx, ny, _] = self.bricks;
@@ -169,7 +169,7 @@ impl<V: Voxel> BrickedVolume<V> {
     /// bricks have other values than before; only these are replaced.
     ///
     /// # Errors
-    /// Memory that the budget does not allow; then nothing is modified.
+    /// Memory that the budget does not allow. Nothing is modified then.
     ///
     /// # Panics
     /// If a voxel lies outside the volume.
@@ -222,7 +222,7 @@ pub(super) fn extent(dims: [usize; 3], brick: [usize; 3]) -> [usize; 3] {
     std::array::from_fn(|a| (dims[a] - brick[a] * SIDE).min(SIDE))
 }
 
-/// The voxels of a brick; those beyond the border are the first one.
+/// The voxels of a brick. Voxels beyond the border have the value of the brick's first voxel.
 pub(super) fn gathered<V: Voxel>(brick: [usize; 3], extent: [usize; 3], value: impl Fn([usize; 3]) -> V) -> Box<[V]> {
     let start = brick.map(|i| i * SIDE);
     let mut voxels = vec![value(start); VOXELS];

@@ -23,7 +23,7 @@ enum Ids {
     U32(Vec<u32>),
 }
 
-/// A volume that holds something else than ids.
+/// A volume that holds other values than ids.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LabelError {
     /// A value that is no id.
@@ -31,7 +31,7 @@ pub enum LabelError {
     NotAnId {
         /// The first voxel with such a value.
         voxel: [usize; 3],
-        /// The value, after slope and intercept; NaN stands for whatever is not finite.
+        /// The value, after slope and intercept; NaN for every value that is not finite.
         value: f64,
     },
 }

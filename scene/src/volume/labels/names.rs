@@ -38,7 +38,7 @@ pub enum NamesFault {
     /// A first column that holds no id.
     #[error("{} is not a label: an id is a whole number from 0 to 4294967295", quoted(.0))]
     NotAnId(String),
-    /// A line without a second column, or with nothing in it.
+    /// A line without a second column, or with an empty one.
     #[error("label {0} has no name")]
     NoName(u32),
     /// A name for a label that has one.
@@ -68,7 +68,8 @@ impl LabelNames {
     /// first line whose first column is no number. A field may be quoted.
     ///
     /// # Errors
-    /// A file that cannot be read, and the first line that has no id, no name, or one that was given already.
+    /// A file that cannot be read, and the first line that has no id, no name, or an id or a name that an earlier line
+    /// has.
     pub fn read(source: &dyn Source, path: &Path) -> Result<Self, NamesError> {
         let error = |fault| NamesError { file: path.to_owned(), line: None, fault };
         let text = memory::read(source, path).map_err(|e| error(NamesFault::Io(e)))?;

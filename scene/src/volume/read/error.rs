@@ -38,13 +38,13 @@ pub enum Fault {
     /// Raw voxels that nothing describes.
     #[error("raw voxels without a description of their layout")]
     NoLayout,
-    /// A file of a format that hospitals write and this program does not read.
+    /// A DICOM file, which this program does not read.
     #[error("this is a DICOM file, and DICOM is not read yet")]
     Dicom,
-    /// A folder of files of that format.
+    /// A folder of DICOM files.
     #[error("this is a folder of DICOM files, and DICOM is not read yet")]
     DicomFolder,
-    /// The file does not begin as its format does.
+    /// The file does not begin with the first bytes of its format.
     #[error("this is not {format}: it begins with {found}, expected {expected}")]
     Magic {
         /// The format that the suffix names, with its article.
@@ -54,13 +54,13 @@ pub enum Fault {
         /// The first bytes of such a file.
         expected: &'static str,
     },
-    /// A text header that goes on and on.
+    /// A text header that is longer than `limit`.
     #[error("the header has no end within its first {limit} bytes")]
     EndlessHeader {
         /// The longest header that is read.
         limit: u64,
     },
-    /// A line of a text header that says nothing.
+    /// A line of a text header that is not a field.
     #[error("the line {found} is not a field")]
     Line {
         /// The line.
@@ -69,7 +69,7 @@ pub enum Fault {
     /// A field that the format does not have.
     #[error("the format has no such field")]
     UnknownField,
-    /// A field that must be there is not.
+    /// A required field is missing.
     #[error("the field is missing, expected {expected}")]
     Missing {
         /// The content that the field should have.
@@ -78,7 +78,7 @@ pub enum Fault {
     /// A field that is given twice.
     #[error("the field is given a second time")]
     Repeated,
-    /// A field that does not hold what it should.
+    /// A field with a wrong value.
     #[error("found {found}, expected {expected}")]
     Value {
         /// The content found.
@@ -86,7 +86,7 @@ pub enum Fault {
         /// The content expected.
         expected: String,
     },
-    /// Something that the format allows and this program does not read.
+    /// A part of the format that this program does not read.
     #[error("{found}; supported: {supported}")]
     Unsupported {
         /// The content of the file.

@@ -27,7 +27,7 @@ use glam::{DMat3, DVec3};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// The suffixes of volume files. Raw voxels may have any other one, with a sidecar.
+/// The suffixes of volume files. A file of raw voxels with a sidecar may have any other suffix.
 pub const EXTENSIONS: [&str; 12] =
     ["nrrd", "nhdr", "nii", "nii.gz", "hdr", "hdr.gz", "img", "img.gz", "mhd", "mha", "raw", "raw.gz"];
 
@@ -44,8 +44,8 @@ pub fn is_volume(path: &Path) -> bool {
 /// coordinates are the file's own ([SPACE-2]).
 ///
 /// # Errors
-/// A file that cannot be opened, is not what its suffix says, lies about its length, has axes that do not span space,
-/// has more than one number a voxel, or no finite value. See [`Fault`].
+/// A file that cannot be opened, or does not match its suffix or its header's claims. Axes that do not span space,
+/// several numbers a voxel, or no finite value. See [`Fault`].
 pub fn read(path: &Path, raw: Option<&RawLayout>) -> Result<Volume, ReadError> {
     read_part(&Disk, path, raw, &all_voxels)
 }
@@ -58,8 +58,8 @@ pub fn all_voxels(grid: &Grid, _: Option<Anatomy>) -> Result<KeptVoxels, NotInVo
     Ok(KeptVoxels::all(grid.dims()))
 }
 
-/// Reads a volume file of a source like [`read`](fn@read), as if it held just the voxels that `choose` keeps ([VOL-1]). The others
-/// take no memory.
+/// Reads a volume file of a source like [`read`](fn@read), as if the file held only the voxels that `choose` keeps
+/// ([VOL-1]). Other voxels take no memory.
 ///
 /// # Errors
 /// Those of [`read`](fn@read), and voxels that the file does not have.
@@ -84,7 +84,7 @@ pub fn read_part(
 /// Refuses a DICOM file, and a folder of such files.
 ///
 /// # Errors
-/// [`Fault::Dicom`] and [`Fault::DicomFolder`]. A path that cannot be read passes: who reads it says why.
+/// [`Fault::Dicom`] and [`Fault::DicomFolder`]. A path that cannot be read passes; a later reader reports it.
 pub fn refuse_dicom(source: &dyn Source, path: &Path) -> Result<(), ReadError> {
     /// Entries of a folder that are looked at.
     const ENTRIES: usize = 64;
