@@ -2,10 +2,10 @@
 
 use super::{GradientEstimator, HessianEstimator, Kernel, Outside};
 use crate::plan::{Plan, Quantity};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the field is reconstructed. The default is the papers': trilinear, central differences.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reconstruction {
     /// Kernel of the values ([REC-1]).
     pub kernel: Kernel,
@@ -32,7 +32,7 @@ impl Default for Reconstruction {
 }
 
 /// The highest derivative that will be asked of a field. The others are not allocated ([PLAN-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rung {
     /// Values.
