@@ -1,6 +1,6 @@
 //! A rendered picture as plain layers, before any file format.
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
 
@@ -26,7 +26,8 @@ pub struct Layer {
 }
 
 /// The layers that a scene can ask for ([IO-6]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[serde(try_from = "String")]
 pub enum LayerKind {
     /// The picture: linear premultiplied RGBA with the background behind.
     Beauty,
@@ -69,6 +70,14 @@ const PART: &str = "part";
 impl Serialize for LayerKind {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(&self.name())
+    }
+}
+
+impl TryFrom<String> for LayerKind {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        Self::from_name(&name).ok_or_else(|| format!("there is no layer {name:?}"))
     }
 }
 

@@ -9,10 +9,10 @@ use crate::math;
 use crate::space::Grid;
 use crate::tables::{Camera, LightDirection, Projection};
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A camera with every default of [RAY-5] filled in.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct View {
     /// World position of the origin of eye space.
     pub eye: DVec3,

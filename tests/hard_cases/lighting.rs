@@ -117,8 +117,8 @@ fn light_from_everywhere() -> f64 {
         let contour_factor = ContourRule::Exact.factor(z);
         let preset = LightingPreset::BlinnPhongContours;
         let model = LightingModel { preset, ambient: 1.0, diffuse: 0.0, specular: 0.0, shininess: 1.0, contour_factor };
-        let (source, table) = (LightingSource::Preset(model), Arc::new(model.table()));
-        let function = LightingFunction::<f64>::new(&LightingParams { source, table, divisor_floor: 1.0, light });
+        let source = LightingSource::Preset(model);
+        let function = LightingFunction::<f64>::new(&LightingParams { source, divisor_floor: 1.0, light });
         let half = function.half_vector(Vec3::new(0.0, 0.0, 1.0));
         let cell = (1.0 + contour_factor) * 2.0 / 256.0;
         for i in 0..20_000 {

@@ -3,6 +3,7 @@
 use super::generator::{resized, scene};
 use crate::common::{Shown, Stage};
 use drypoint::scene::picture::LayerKind;
+use drypoint::scene::shot::Shot;
 
 const SEEDS: std::ops::Range<u64> = 0..400;
 
@@ -51,6 +52,18 @@ fn every_scene_is_sound_and_skips_without_a_trace() {
     }
     // A generator whose scenes are empty would test nothing.
     assert!(shown_something > 120 && skipped > 50, "{shown_something} {skipped}");
+}
+
+/// The JSON of a shot is read as the same shot, and as the same text: zeros keep their signs.
+#[test]
+fn shots_read_back() {
+    for seed in SEEDS {
+        let stage = scene(seed);
+        let shot = stage.resolved(stage.view());
+        let text = shot.to_json().unwrap();
+        let read = serde_json::from_str::<Shot>(&text).unwrap_or_else(|error| panic!("{seed}: {error}\n{text}"));
+        assert!(read == shot && read.to_json().unwrap() == text, "{seed}: {text}");
+    }
 }
 
 /// [RAY-3]: 1, 2 and 7 threads make the same bits, with tiles of 1, 5, 16 and 64 pixels, which the picture is a part of or

@@ -10,6 +10,7 @@ use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, load};
 use drypoint::scene::picture::{LayerKind, Picture};
 use drypoint::scene::plan::Quantity;
+use drypoint::scene::shot::Shot;
 use drypoint::scene::source::Disk;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
@@ -111,6 +112,24 @@ fn draws_in_every_theme(mut job: Job, own: &Picture, path: &Path) {
         // Opacities are the scene's; only α_d of what is clear differs a little from theme to theme.
         assert!((m.covered - n.covered).abs() < 0.05, "{theme}, {}: {m:?} and {n:?}", path.display());
     }
+}
+
+/// The JSON of every scene's shot is read as the same shot, and as the same text: zeros keep their signs.
+#[test]
+fn the_shot_of_every_scene_reads_back() {
+    let mut read = 0;
+    for path in all().into_iter().filter(|path| data().is_some() || is_of_a_phantom(path)) {
+        let job = Job::load(load(&path, &Overrides::default()).unwrap()).unwrap();
+        if !job.draws_volume() {
+            continue;
+        }
+        let shot = job.shot().unwrap();
+        let text = shot.to_json().unwrap();
+        let again = serde_json::from_str::<Shot>(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        assert!(again == shot && again.to_json().unwrap() == text, "{}", path.display());
+        read += 1;
+    }
+    assert!(read > if data().is_some() { 60 } else { 0 }, "{read}");
 }
 
 #[test]

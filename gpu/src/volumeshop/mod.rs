@@ -24,9 +24,10 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
     shader.add(&[BILINEAR, module!("lighting")]);
     shader.block.vector("light", params.light);
     shader.block.number("divisor_floor", params.divisor_floor);
-    shader.constant("LIGHTING_WIDTH", Constant::Int(params.table.width() as i64));
-    shader.constant("LIGHTING_HEIGHT", Constant::Int(params.table.height() as i64));
-    shader.bind(LIGHTING, "the lighting table", Data::Lighting(cells(&params.table)));
+    let table = params.source.table();
+    shader.constant("LIGHTING_WIDTH", Constant::Int(table.width() as i64));
+    shader.constant("LIGHTING_HEIGHT", Constant::Int(table.height() as i64));
+    shader.bind(LIGHTING, "the lighting table", Data::Lighting(cells(&table)));
     shader.stages.lit.push("shade_by_table");
 }
 
@@ -34,7 +35,7 @@ pub(crate) fn add_lighting(shader: &mut Shader, params: &LightingParams) {
 pub(crate) fn lighting_cells<'o>(objects: impl Iterator<Item = &'o Object>) -> Vec<Vec<f64>> {
     let tables = objects.filter_map(|object| match &object.material {
         Material::Regular(lit) => match &lit.lighting {
-            Lighting::Function(params) => Some(cells(&params.table)),
+            Lighting::Function(params) => Some(cells(&params.source.table())),
             Lighting::Flat | Lighting::Phong(_) | Lighting::Toon(_) => None,
         },
         Material::Style(_) => None,

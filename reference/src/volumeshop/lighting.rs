@@ -34,7 +34,7 @@ pub struct Reflectance<R> {
 impl<R: Real> LightingFunction<R> {
     /// Prepares the table of a shot.
     pub fn new(params: &LightingParams) -> Self {
-        let table = &params.table;
+        let table = params.source.table();
         Self {
             width: table.width(),
             height: table.height(),

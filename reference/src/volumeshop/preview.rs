@@ -82,8 +82,8 @@ mod tests {
     #[test]
     fn a_sphere_and_its_table_on_white() {
         let table = LightingTable::new(1, 1, vec![[0.5, 0.25, 0.0, 0.5]]).unwrap();
-        let source = LightingSource::File("t.png".into());
-        let params = LightingParams { source, table: Arc::new(table), divisor_floor: 1.0 / 64.0, light: DVec3::Z };
+        let source = LightingSource::File { path: "t.png".into(), table: Arc::new(table) };
+        let params = LightingParams { source, divisor_floor: 1.0 / 64.0, light: DVec3::Z };
         let picture = preview(&params, 100);
         let pixel = |x: usize, y: usize| [0, 1, 2, 3].map(|c| picture.layers[0].channels[c][y * 100 + x]);
         // The divisor is min(1, ½ + ½), and c = ¾ c_u.

@@ -7,10 +7,10 @@ pub use line::{ClippedParts, ClippedRange};
 pub use plane::ClipPlane;
 
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Clip planes. The kept region lies on no plane's cut side, and is convex.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ClipPlanes(pub Vec<ClipPlane>);
 

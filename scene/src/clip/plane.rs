@@ -2,12 +2,12 @@
 
 use crate::space::Grid;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A plane that cuts away the side to which its normal points. Places on the plane itself are kept.
 ///
 /// A plane's normal is covariant: world = D·index + origin turns n in world space into Dᵀn in index space.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClipPlane {
     /// n, of length 1 in world space.
     pub normal: DVec3,

@@ -216,16 +216,9 @@ macro_rules! choices {
         $(later $later:expr)?
     ) => {
         $(#[$meta])*
+        #[derive(serde::Serialize)]
         #[allow(rustdoc::broken_intra_doc_links, reason = "[name] is a table of a scene file")]
-        $visible enum $choice { $($(#[doc = $doc])+ $value,)+ }
-
-        impl serde::Serialize for $choice {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                serializer.serialize_str(match self {
-                    $(Self::$value => $name,)+
-                })
-            }
-        }
+        $visible enum $choice { $($(#[doc = $doc])+ #[serde(rename = $name)] $value,)+ }
 
         impl $choice {
             /// The values by name.

@@ -7,7 +7,7 @@ use crate::math;
 
 choices! {
     /// The factor c of the contours of a lighting preset, which are dark where c·(N·Ĥ) − N·L is near 0.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum ContourRule {
         /// c = ‖L + v‖, so that contours lie where N·v = 0. In perspective v is that of the picture's centre.
         Exact = "exact",

@@ -6,7 +6,7 @@ mod presets;
 pub use contour::ContourRule;
 pub use presets::{LightingModel, LightingPreset};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -15,12 +15,11 @@ pub type LightingCell = [f64; 4];
 
 /// A table of reflectances. Column i of W stands at N·L = 2i/(W − 1) − 1, row j of H from the top at
 /// N·Ĥ = 1 − 2j/(H − 1). A single column or row stands for all numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightingTable {
     width: usize,
     height: usize,
     /// Row by row from the top.
-    #[serde(skip)]
     cells: Vec<LightingCell>,
 }
 

@@ -3,7 +3,7 @@
 use super::{LightingCell, LightingTable};
 use crate::document::declare::choices;
 use crate::math;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Columns and rows of a preset's table. The number is odd, so that N·L = 0, where light ends, is a column.
 const SIDE: usize = 257;
@@ -13,7 +13,7 @@ const CONTOUR_WIDTH: f64 = 0.15;
 
 choices! {
     /// A lighting transfer function that is generated.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum LightingPreset {
         /// Blinn–Phong.
         BlinnPhong = "blinn-phong",
@@ -73,7 +73,7 @@ impl LightingPreset {
 }
 
 /// A preset with its numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightingModel {
     /// The preset.
     pub preset: LightingPreset,

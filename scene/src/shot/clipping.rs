@@ -4,10 +4,10 @@ use crate::clip::{ClipPlane, ClipPlanes};
 use crate::space::Grid;
 use crate::tables::{Clip, ClipSpace, PartName, Scene, SphereFrame};
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Clip planes and what cuts show.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Clipping {
     /// The planes that cut something of the volume's box away, in the order of the tables. A box has six: the lower and
     /// the upper one of each axis.
@@ -21,7 +21,7 @@ pub struct Clipping {
 }
 
 /// A cap: what cuts show in place of their own colour.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cap {
     /// A colour, unlit.

@@ -9,7 +9,7 @@ use crate::tables::{
 use crate::transfer::Function;
 use crate::volume::{BRICK, Bricks};
 use glam::{DAffine3, DVec3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The most steps across an object, whose samples are all asked: more than ten of the largest volumes have at the default
@@ -17,7 +17,7 @@ use std::sync::Arc;
 pub const MOST_STEPS: f64 = 1e5;
 
 /// Objects that are drawn with the background, which is the shot's own object.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Combination {
     /// The operators of fuzzy sets ([VS-3]).
     pub fuzzy: Fuzzy,
@@ -32,7 +32,7 @@ pub struct Combination {
 }
 
 /// The selection of an object: f_S, and where M moves it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SelectionParams {
     /// f_S.
     pub membership: Membership,
@@ -45,7 +45,7 @@ pub struct SelectionParams {
 }
 
 /// f_S of an object.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Membership {
     /// 1 in the box of the object's data.
@@ -58,7 +58,7 @@ pub enum Membership {
 
 /// A selection or a ghost as it is drawn. The part at place i of [`Combination::parts`] is at place i + 1 of
 /// [`Shot::objects`].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
     /// The place of its `[[object]]` in the scene, and of its selection in [`Combination::selections`].
     pub object: usize,
@@ -73,7 +73,7 @@ pub struct Part {
 }
 
 /// A cutaway: the background before a part fades ([VS-7]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cutaway {
     /// The place of the part among [`Combination::parts`].
     pub part: usize,
@@ -86,7 +86,7 @@ pub struct Cutaway {
 }
 
 /// The look of a place where a selection meets its ghost or the background.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Intersection {
     /// The place of its table in the scene.
     pub table: usize,
@@ -105,7 +105,7 @@ pub struct Intersection {
 }
 
 /// The colour of an intersection.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum IntersectionPaint {
     /// The mean of both colours by their opacities.

@@ -11,10 +11,10 @@ use crate::tables::{
 };
 use crate::transfer::Function;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The halos of a picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Halos {
     /// The halos, in the scene's order: of emissive ones the first lies in front, of occlusive ones the first is mixed
     /// last ([HALO-7]). All of the scene if one has an effect, so that layers find them by their places; else none. One without an
@@ -25,7 +25,7 @@ pub struct Halos {
 }
 
 /// The seeds of halos among the samples of a selection or a ghost, by its own function and labels ([VS-2]).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartSeeds {
     /// The seeds of each of [`Halos::list`]; 0 everywhere for a halo that takes other parts.
     pub list: Vec<HaloSeed>,
@@ -34,7 +34,7 @@ pub struct PartSeeds {
 }
 
 /// One halo.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HaloParams {
     /// Its name.
     pub name: String,
@@ -59,7 +59,7 @@ pub struct HaloParams {
 }
 
 /// The halo transfer function h = h_v·h_d·h_p·h_l, and the exponents of s ([HALO-2], [HALO-3]).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HaloSeed {
     /// h_v; none: 1.
     pub value: Option<SeedValue>,
@@ -76,7 +76,7 @@ pub struct HaloSeed {
 }
 
 /// h_p = clamp₀₁(1 − (dist − inner)/falloff), of the distance to a point or a polyline.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedFocus {
     /// A point or the vertices of a polyline, in world space; at least one.
     pub at: Vec<DVec3>,
@@ -87,7 +87,7 @@ pub struct SeedFocus {
 }
 
 /// The factor of a seed that is large where a surface is seen from the side ([HALO-3]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SeedSide {
     /// (1 − |n·v|)^b.
@@ -103,7 +103,7 @@ pub enum SeedSide {
 }
 
 /// From seeds to intensities on a plane.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HaloSpread {
     /// Whether the gradient of the seeds is spread, or the seeds themselves ([HALO-4]).
     pub from: HaloSource,

@@ -4,12 +4,12 @@ use super::StepAlong;
 use crate::space::Grid;
 use crate::view::View;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The sample planes (or shells) of a camera: eye depths (k + ½)Δ, k a whole number.
 ///
 /// Sample k of a ray is at `origin + along · ((k + ½)·Δ)`: a function of the pixel and k, never accumulated.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lattice {
     /// Δ in world units.
     pub step: f64,

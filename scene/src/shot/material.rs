@@ -9,12 +9,12 @@ use crate::tables::{
 use crate::transfer::Function;
 use crate::view::View;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
 /// From the attributes of a sample to its straight colour and its opacity per reference length.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Material {
     /// Colours of the function's nodes.
@@ -24,7 +24,7 @@ pub enum Material {
 }
 
 /// The illumination of a colour.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Illumination {
     /// The reflection of light.
     pub lighting: Lighting,
@@ -39,7 +39,7 @@ pub struct Illumination {
 }
 
 /// A reflection of light.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lighting {
     /// Not at all.
@@ -53,7 +53,7 @@ pub enum Lighting {
 }
 
 /// Blinn–Phong reflection.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PhongParams {
     /// k_a.
     pub ambient: f64,
@@ -68,12 +68,10 @@ pub struct PhongParams {
 }
 
 /// A lighting transfer function.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightingParams {
     /// The source of the table.
     pub source: LightingSource,
-    /// The table.
-    pub table: Arc<LightingTable>,
     /// s_min, the least divisor of opacities.
     pub divisor_floor: f64,
     /// L: the unit vector towards the light, in world space.
@@ -81,17 +79,32 @@ pub struct LightingParams {
 }
 
 /// The source of a lighting table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightingSource {
     /// A preset.
     Preset(LightingModel),
     /// A picture.
-    File(PathBuf),
+    File {
+        /// Its file.
+        path: PathBuf,
+        /// The table in it.
+        table: Arc<LightingTable>,
+    },
+}
+
+impl LightingSource {
+    /// The table.
+    pub fn table(&self) -> Arc<LightingTable> {
+        match self {
+            Self::Preset(model) => Arc::new(model.table()),
+            Self::File { table, .. } => table.clone(),
+        }
+    }
 }
 
 /// Tones with hard steps.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToonParams {
     /// L: the unit vector towards the light, in world space.
     pub light: DVec3,
@@ -102,7 +115,7 @@ pub struct ToonParams {
 }
 
 /// The parameters of a function of styles beside its nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StyleParams {
     /// The mix of two styles ([STF-3]).
     pub mix: Mix,
@@ -117,7 +130,7 @@ pub struct StyleParams {
 }
 
 /// Style contours.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContourParams {
     /// T in world units.
     pub thickness: f64,
@@ -128,7 +141,7 @@ pub struct ContourParams {
 }
 
 /// The level of detail of styles ([STF-10]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LevelOfDetail {
     /// b_κ; 0 where the picture has no κ.
     pub curvature_bias: f64,
@@ -233,7 +246,6 @@ impl Illumination {
                 function.light = towards;
                 if let LightingSource::Preset(model) = &mut function.source {
                     model.contour_factor = contour_factor(self.contour, towards, view);
-                    function.table = Arc::new(model.table());
                 }
             }
         }
@@ -258,23 +270,23 @@ impl PhongParams {
 }
 
 impl LightingParams {
-    /// The table of a file as it was read, or that of a preset for this light and view ([VS-5]).
+    /// By the table of a file as it was read, or by a preset for this light and view ([VS-5]).
     fn new(shading: &Shading, light: LightDirection, view: &View) -> Result<Self, ShotError> {
         let light = view.towards(light);
-        let (source, table) = match (shading.lighting_file(), shading.lighting_preset()) {
+        let source = match (shading.lighting_file(), shading.lighting_preset()) {
             (Some(file), _) => {
                 let table = file.table.clone().ok_or(ShotError::NoLightingTable)?;
-                (LightingSource::File(file.path.clone()), table)
+                LightingSource::File { path: file.path.clone(), table }
             }
             (None, preset) => {
                 let &Shading { ambient, diffuse, specular, shininess, .. } = shading;
                 let preset = preset.unwrap_or(LightingPreset::BlinnPhong);
                 let contour_factor = contour_factor(shading.contour, light, view);
                 let model = LightingModel { preset, ambient, diffuse, specular, shininess, contour_factor };
-                (LightingSource::Preset(model), Arc::new(model.table()))
+                LightingSource::Preset(model)
             }
         };
-        Ok(Self { source, table, divisor_floor: shading.divisor_floor, light })
+        Ok(Self { source, divisor_floor: shading.divisor_floor, light })
     }
 }
 

@@ -3,11 +3,11 @@
 use super::Illumination;
 use crate::tables::{MeshTable, Scene};
 use crate::view::View;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// An opaque mesh, at which rays end. Its triangles are data beside the shot, in the world.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MeshParams {
     /// The file.
     pub file: PathBuf,

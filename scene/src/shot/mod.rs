@@ -47,11 +47,11 @@ use crate::space::Grid;
 use crate::tables::{Iso, Length, NormalSide, Scene, SignFlip};
 use crate::transfer::Function;
 use crate::view::View;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// One picture of one camera.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Shot {
     /// The camera ([SPACE-3], [RAY-5]).
     pub view: View,
@@ -87,7 +87,7 @@ pub struct Shot {
 }
 
 /// A volume with its transfer function and its look.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Object {
     /// How the field is reconstructed from voxels.
     pub reconstruction: Reconstruction,
@@ -118,7 +118,7 @@ pub struct Object {
 }
 
 /// The direction of shading normals ([NORM-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum NormalDirection {
     /// Outwards.
@@ -130,7 +130,7 @@ pub enum NormalDirection {
 }
 
 /// The angle between two normals that κ along the ray is made of ([STF-5]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Turn {
     /// Between the normals, in [0, π].
@@ -266,7 +266,8 @@ impl Shot {
         shot
     }
 
-    /// The shot as JSON, for a person who writes another renderer.
+    /// The shot as JSON, for a person who writes another renderer. `serde_json::from_str` reads it as the same shot, to the
+    /// bit, and does not check what fields promise of each other.
     ///
     /// # Errors
     /// A volume of the transfer function whose path is no text.
@@ -377,6 +378,7 @@ fn stop_at(epsilon: f64, blend_space: BlendSpace) -> f64 {
 mod tests {
     use super::*;
     use crate::file::{Overrides, parse};
+    use crate::lighting::LightingTable;
     use crate::tables::Camera;
     use crate::volume::{Volume, Voxels};
     use glam::DVec3;
@@ -433,6 +435,21 @@ mod tests {
         }
         // With a light of the world only the exact rule of contours reads the view; without shading nothing does.
         assert_eq!(turned, 2 * 4 + 2);
+    }
+
+    /// The table of a preset follows from its numbers; that of a picture is written with its cells.
+    #[test]
+    fn tables_and_layers_read_back() {
+        let table = LightingTable::new(1, 2, vec![[0.1, 1.0 / 3.0, 5e-324, 1.0], [f64::MAX, 0.7, 1e-7, 0.0]]);
+        let source = LightingSource::File { path: "a.png".into(), table: Arc::new(table.unwrap()) };
+        let text = serde_json::to_string(&source).unwrap();
+        assert_eq!(serde_json::from_str::<LightingSource>(&text).unwrap(), source);
+        let layers = LayerKind::ALL.into_iter().chain([LayerKind::Halo(3), LayerKind::Part(0)]);
+        let layers: Vec<LayerKind> = layers.collect();
+        let text = serde_json::to_string(&layers).unwrap();
+        assert_eq!(serde_json::from_str::<Vec<LayerKind>>(&text).unwrap(), layers);
+        let fault = serde_json::from_str::<LayerKind>("\"halo03\"").unwrap_err().to_string();
+        assert_eq!(fault, "there is no layer \"halo03\"");
     }
 
     #[test]

@@ -5,10 +5,10 @@ use crate::picture::LayerKind;
 use crate::plan::{Plan, Quantity};
 use crate::tables::{Scene, SurfaceLook};
 use crate::view::View;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// An iso-surface of opacity 1, at which rays end.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct OpaqueSurface {
     /// The value.
     pub iso: f64,

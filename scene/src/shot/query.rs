@@ -6,10 +6,10 @@ use crate::plan::{Plan, Quantity, halos_in_effect};
 use crate::tables::contours::measured_curvature;
 use crate::tables::{Axis, Kappa, Scene};
 use crate::transfer::Function;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Quantities that a visible sample is asked for beyond its value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SampleQuery {
     /// The gradient g and the normal.
     pub gradient: bool,
@@ -22,7 +22,7 @@ pub struct SampleQuery {
 }
 
 /// The source of κ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum KappaSource {
     /// Nothing asks for it.

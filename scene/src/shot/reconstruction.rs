@@ -4,10 +4,10 @@ use super::{GradientEstimator, HessianEstimator, Kernel, Outside, ShotError, in_
 use crate::plan::{Plan, Quantity};
 use crate::space::Grid;
 use crate::tables::{Sampling, Scene};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How the field is reconstructed. The default is the papers': trilinear, central differences.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reconstruction {
     /// Kernel of the values ([REC-1]).
     pub kernel: Kernel,
@@ -46,7 +46,7 @@ impl Default for Reconstruction {
 }
 
 /// The highest derivative that will be asked of a field. The others are not allocated ([PLAN-1]).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rung {
     /// Values.

@@ -14,7 +14,7 @@ table! {
 
 choices! {
     /// Operators of fuzzy sets ([VS-3]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Fuzzy {
         /// Intersection min, union max: the paper's. Opacities dip to ½ where a soft selection begins.
         Zadeh = "zadeh",

@@ -5,7 +5,7 @@ use crate::document::describe::Table;
 use crate::document::kind::{Bounds, Lengths, Number, Numbers, On, Rule};
 use crate::quantity::Quantity;
 use crate::tables::{Length, Scene};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 table! {
     /// The table `[contours]`.
@@ -51,7 +51,7 @@ table! {
 }
 
 /// Which κ_v ([STF-6]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kappa {
     /// From two normals along the ray; the paper's.

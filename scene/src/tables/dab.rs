@@ -6,12 +6,12 @@ use crate::document::describe::{Kind, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, Numbers, Rule, TableOf};
 use crate::document::out::Out;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 table! {
     /// A dab of a Gaussian brush on a function of the value at p and the value at T p.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
     pub struct Dab {
         /// Its centre: the value of the ghost or the background, and that of the selection.
         at: [f64; 2] = [0.0; 2], key("VS-4", AT).required();

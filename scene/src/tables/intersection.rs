@@ -45,7 +45,7 @@ choices! {
 
 choices! {
     /// The opacity of an intersection ([VS-4]), by the operators of Porter and Duff.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum IntersectionOpacity {
         /// max(a, b).
         Max = "max",

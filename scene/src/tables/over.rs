@@ -13,7 +13,7 @@ use crate::document::out::Out;
 use crate::nearest::nearest;
 use crate::quantity::Quantity;
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -28,7 +28,7 @@ pub enum Over {
 
 /// A quantity that an axis of a transfer function measures. `L` is the type of a label's name: an id or a name in a
 /// scene, and an id alone after names have been looked up.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis<L = LabelKey> {
     /// The value of the volume.

@@ -13,7 +13,7 @@ use crate::nearest::nearest;
 use crate::picture::LayerKind;
 use crate::quantity::Quantity;
 use crate::tables::Length;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 use std::path::PathBuf;
 
@@ -78,7 +78,7 @@ impl RaysPerPixel {
 }
 
 /// Background of the picture.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Background {
     /// Nothing: A is the coverage.
@@ -91,7 +91,7 @@ pub enum Background {
 
 choices! {
     /// Which numbers are composited ([VAL-3]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum BlendSpace {
         /// Linear light.
         Linear = "linear",

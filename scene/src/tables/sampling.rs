@@ -37,7 +37,7 @@ table! {
 
 choices! {
     /// Lines along which the distance between samples is measured.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum StepAlong {
         /// View-aligned planes.
         Plane = "plane",
@@ -48,7 +48,7 @@ choices! {
 
 choices! {
     /// Reconstruction kernels ([REC-1]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize)]
     pub enum Kernel {
         /// Three nested interpolations.
         Trilinear = "trilinear",
@@ -65,7 +65,7 @@ choices! {
 
 choices! {
     /// Gradient estimators ([REC-2]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize)]
     pub enum GradientEstimator {
         /// Central differences on the voxels, then trilinear.
         Central = "central",
@@ -80,7 +80,7 @@ choices! {
 
 choices! {
     /// Hessian estimators ([REC-3]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Deserialize)]
     pub enum HessianEstimator {
         /// gaussian for integer files, else analytic where the kernel allows it, else central.
         Auto = "auto",
@@ -108,7 +108,7 @@ choices! {
 
 choices! {
     /// Number type of the samples.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Number {
         /// The truth.
         F64 = "f64",

@@ -13,7 +13,7 @@ use crate::quantity::Quantity;
 use crate::tables::toon::{SHADING_SILHOUETTE, SHADING_TOON, VIEW_OPACITY};
 use crate::tables::{SilhouetteShading, ToonShading};
 use glam::DVec3;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 table! {
@@ -74,7 +74,7 @@ choices! {
 }
 
 /// Towards the light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LightDirection {
     /// Eye space (0, 0, 1) at every sample.

@@ -8,7 +8,7 @@ use crate::document::fault::Problem;
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, FEW, ListOf, Number};
 use crate::document::out::Out;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 table! {
@@ -27,7 +27,7 @@ table! {
 }
 
 /// One tone.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tone {
     /// Start of the tone, in x = L·N + offset; this x itself still has the tone before.
     pub at: f64,

@@ -96,7 +96,7 @@ impl Unit {
 
 choices! {
     /// How α_u and α_d become α ([STF-9]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Transparency {
         /// Faces turned to the eye become clearer than rims.
         Illustrative = "illustrative",
@@ -107,7 +107,7 @@ choices! {
 
 choices! {
     /// How two styles mix ([STF-3]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Mix {
         /// Colours weighted by opacity.
         Premultiplied = "premultiplied",
@@ -118,7 +118,7 @@ choices! {
 
 choices! {
     /// Frame of the lit sphere ([STF-1]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum SphereFrame {
         /// Eye space.
         Eye = "eye",

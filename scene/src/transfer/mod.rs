@@ -7,12 +7,12 @@ mod table;
 use crate::tables::{Axis, Node, NodeColor, Over, Row, Stand, Table, Transfer, Unit};
 use crate::volume::Volume;
 use crate::volume::histogram::quantiles;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::ops::Range;
 
 /// The nodes of a transfer function ([STF-3]). Over two quantities, nodes stand row after row ([STF-4]).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Nodes<C> {
     /// The value, or the first of the two quantities, at each node; in non-decreasing order within each row.
     pub at: Vec<f64>,
@@ -27,7 +27,7 @@ pub struct Nodes<C> {
 }
 
 /// The rows of a transfer function over two quantities.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rows {
     /// The quantities: the first along a row, the second from row to row.
     pub over: [Axis<u32>; 2],
@@ -40,7 +40,7 @@ pub struct Rows {
 }
 
 /// A transfer function of either kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Function {
     /// Styles by their index in [`Function::Style::names`].

@@ -15,7 +15,6 @@ use crate::{Failure, Format};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// Pixels across a picture of the sheet.
 const CELL: usize = 240;
@@ -53,10 +52,8 @@ impl LightingArgs {
             png::write_rgba_table(size, table.cells(), 16, output).map_err(failed)?;
         } else {
             let spheres = LightingPreset::ALL.map(|preset| {
-                let model = model(preset, light);
-                let (source, table) = (LightingSource::Preset(model), Arc::new(model.table()));
-                let divisor_floor = Shading::default().divisor_floor;
-                let params = LightingParams { source, table, divisor_floor, light };
+                let source = LightingSource::Preset(model(preset, light));
+                let params = LightingParams { source, divisor_floor: Shading::default().divisor_floor, light };
                 (preset.name().to_owned(), Image::from(&preview(&params, CELL)))
             });
             let picture = sheet(&spheres, Layout { columns: Some(3), cell: CELL }).map_err(failed)?;

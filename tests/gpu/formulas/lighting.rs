@@ -39,10 +39,9 @@ fn lighting_tables() {
         let [x, y, z] = light;
         table.push([0.6, 0.8, 0.0, -x, -y, -z, 0.5, 0.25, 0.75]);
         table.push([x, y, z, x, y, z, 0.5, 0.25, 1.0]);
-        let source = LightingSource::File("table.png".into());
         let lighting = LightingTable::new(width, height, cells.clone()).unwrap();
-        let light_vector = DVec3::from_array(light);
-        let params = LightingParams { source, table: Arc::new(lighting), divisor_floor: 0.25, light: light_vector };
+        let source = LightingSource::File { path: "table.png".into(), table: Arc::new(lighting) };
+        let params = LightingParams { source, divisor_floor: 0.25, light: DVec3::from_array(light) };
         let function = LightingFunction::<f64>::new(&params);
         let sizes = format!("const LIGHTING_WIDTH: i32 = {width};\nconst LIGHTING_HEIGHT: i32 = {height};\n");
         let kernel = ShaderKernel {

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 /// A function of a table under a light, with s_min = 1/64.
 fn function<R: Real>(table: LightingTable, light: DVec3) -> LightingFunction<R> {
-    let source = LightingSource::File("table.png".into());
-    LightingFunction::new(&LightingParams { source, table: Arc::new(table), divisor_floor: 1.0 / 64.0, light })
+    let source = LightingSource::File { path: "table.png".into(), table: Arc::new(table) };
+    LightingFunction::new(&LightingParams { source, divisor_floor: 1.0 / 64.0, light })
 }
 
 /// W × H cells by a function of column and row.

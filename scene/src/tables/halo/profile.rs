@@ -7,14 +7,14 @@ use crate::document::describe::{Kind, Section, Shape, Table};
 use crate::document::item::Item;
 use crate::document::kind::{Bounds, Colors, ListOf, MANY, Number, TableOf};
 use crate::document::out::Out;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 table! {
     /// A node of a halo's profile.
     ///
     /// A colour's opacity multiplies `opacity`, so `color` is read after it.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
     pub struct ProfileNode {
         /// The intensity, from 0 to 1.
         at: f64 = 0.0, key("HALO-6", UNIT).required();

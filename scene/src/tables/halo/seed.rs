@@ -12,7 +12,7 @@ use crate::quantity::Quantity;
 use crate::tables::over::Label;
 use crate::tables::unit_pairs::UnitPairs;
 use crate::tables::{LabelKey, Length};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 table! {
@@ -52,7 +52,7 @@ const OF_OPACITY: &[Quantity] = &[
 ];
 
 /// h_v.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SeedValue {
     /// α_u of the object's transfer function.
@@ -63,7 +63,7 @@ pub enum SeedValue {
 
 table! {
     /// h_d: the angle θ between N in the picture and up, in degrees, 0 up and 90 right.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
     pub struct SeedDirection {
         /// The middle of the range: 0 is up in the picture, 90 to the right.
         toward: f64 = 0.0, key("HALO-2", Number { bounds: Bounds::ANY, unit: ", in degrees" });

@@ -26,7 +26,7 @@ table! {
 
 choices! {
     /// The image that is spread ([HALO-4]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum HaloSource {
         /// The gradient magnitude of the seeds: small features keep their halo.
         Gradient = "gradient",

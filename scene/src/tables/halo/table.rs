@@ -60,7 +60,7 @@ table! {
 
 choices! {
     /// The way a halo enters the picture ([HALO-7]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum HaloKind {
         /// A light or dark fog of its own, before what lies behind.
         Emissive = "emissive",
@@ -71,7 +71,7 @@ choices! {
 
 choices! {
     /// How seeds of several planes come together ([HALO-8]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum HaloAccumulation {
         /// The largest: keeps shapes.
         Max = "max",

@@ -4,10 +4,10 @@ use crate::picture::LayerKind;
 use crate::tables::{
     GhostTable, Halo, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A part of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// The selection, where M moves it; of an object that is not moved, where it is.

@@ -102,7 +102,7 @@ table! {
 
 choices! {
     /// The depth d up to which the background of a ray is cut away ([VS-7]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Cut {
         /// The far side of the object's oriented bounding box: the paper's.
         Bounds = "bounds",

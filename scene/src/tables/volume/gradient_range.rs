@@ -5,11 +5,11 @@ use crate::document::describe::{Kind, Shape};
 use crate::document::item::{Item, Value};
 use crate::document::kind::{Bounds, Numbers, Rule};
 use crate::document::out::Out;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 /// The gradient that |g| = 1 stands for ([VAL-2]).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum GradientRange {
     /// lo = 0, hi the quantile of ‖g‖ over the voxels with a normal; `"max"` is the quantile 1.

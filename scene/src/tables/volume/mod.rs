@@ -117,7 +117,7 @@ choices! {
 
 choices! {
     /// Which label lies between voxels ([STF-13]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum LabelLookup {
         /// That of the nearest voxel.
         Nearest = "nearest",
@@ -128,7 +128,7 @@ choices! {
 
 choices! {
     /// Which values lie outside ([NORM-1]).
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
     pub enum Outside {
         /// Values fall towards the outside.
         Low = "low",
