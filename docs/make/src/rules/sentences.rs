@@ -170,6 +170,7 @@ pub(super) const FAMILIES: [Family; 18] = [
             (6, "Selections are painted by brushes, region growing and watershed, onto voxels that the transfer function shows."),
             (7, "What lies in front of a selection is cut away or ghosted, and what is enhanced goes last."),
             (8, "Boxes, arrows and fans say what was moved where."),
+            (9, "While the camera moves, a selection stays in the scene, before the eye, or pinned to its pixel and depth."),
             (10, "Labels stand around the picture and are tied to their anchors; an orbit turns the camera."),
             (11, "A scene without its volume is a template; its nodes are in values, normalized, or percentiles."),
             (12, "Opaque meshes are intersected with the volume."),
