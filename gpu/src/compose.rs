@@ -4,6 +4,7 @@ pub(crate) mod objects;
 
 use crate::block::ParamBlock;
 use crate::field::Scales;
+use crate::inputs::ObjectInputs;
 use crate::place::GridPlacement;
 use crate::shader::{Constant, Shader};
 use crate::shading::LitColors;
@@ -12,6 +13,7 @@ use crate::{
     style_transfer_functions, surface, transfer, volumeshop, volumetric_halos,
 };
 use drypoint_scene::glam::DVec3;
+use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{Illumination, KappaSource, Lighting, Material, SampleQuery, Shot};
 use drypoint_scene::transfer::Function;
@@ -78,80 +80,22 @@ fn of_volume(
     if clips {
         ray::add_clip(&mut shader, &shot.clipping, styles.len());
     }
-    // Quantities of layers `first.*` and of looks that the volume meets are measured at every visible sample.
+    // Derivatives. Quantities of layers `first.*` and of looks that the volume meets are measured at every visible sample.
     let beyond = [object.first, object.meeting].into_iter().flatten();
     let query = beyond.fold(object.query, SampleQuery::and);
     let own = shot.surface.as_ref().map_or(query, |surface| query.and(surface.query).and(surface.first));
     let has_halos = !shot.halos.list.is_empty();
     let query = if has_halos { own.and(shot.halos.query) } else { own };
-    if query.gradient {
-        field::gradient::add(
-            &mut shader,
-            object.reconstruction,
-            object.normal,
-            measured,
-            &scales,
-            no_normal(precision),
-            place.moved,
-        );
-        ray::add_gradient(&mut shader, measured, &scales);
-    }
-    if query.hessian {
-        let is_integer = data.volume.is_integer();
-        field::hessian::add(&mut shader, object, is_integer, measured, &scales, precision)?;
-        ray::add_curvature(&mut shader, query);
-    }
-    if query.kappa == KappaSource::AlongRay {
-        style_transfer_functions::add_curvature_along_ray(&mut shader, object.turn);
-        if shot.surface.is_some() {
-            surface::add_curvature_along_ray(&mut shader);
-        }
-    }
-    let rows = object.function.nodes().2;
-    if let Some(rows) = rows {
-        transfer::over::add(&mut shader, shot, rows, &own_inputs, &scales)?;
-    }
-    let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
-    let mut with_levels = false;
-    match (&*object.function, &object.material) {
-        (Function::Regular(nodes), Material::Regular(lit)) => {
-            let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
-            transfer::add_colors(&mut shader, &nodes.color, between);
-            add_light(&mut shader, lit, LitColors::Samples);
-        }
-        (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles.len() => {
-            let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
-            style_transfer_functions::add(&mut shader, shot, params, &nodes.color, place.voxel, between);
-            with_levels = params.level_of_detail.is_some();
-        }
-        _ => return Err(GpuError::Material),
-    }
+    add_derivatives(&mut shader, (shot, query), &own_inputs, place, &scales, precision)?;
+    // Colours, of the function and of cut faces.
+    let with_levels = add_material(&mut shader, shot, &own_inputs, styles.len(), place, &scales)?;
     if clips {
         ray::add_cuts(&mut shader);
     }
     style_transfer_functions::add_spheres(&mut shader, &shot.clipping, [styles, of_caps], with_levels);
-    if ray::ends_rays(shot) {
-        ray::add_end(&mut shader);
-    }
-    if !shot.meshes.is_empty() {
-        mesh::add(&mut shader, shot, (inputs.data.meshes, &own_inputs), scales.value(0.0), precision)?;
-    }
-    if let Some(surface) = &shot.surface {
-        let has_mask = data.volume.mask().is_some();
-        let (kernel, slack) = (object.reconstruction.kernel, ray::rounding(&scales, precision));
-        surface::add_search(&mut shader, kernel, surface.iso, measured, &scales, slack, has_mask);
-        surface::add(&mut shader, shot, surface, has_mask);
-        add_light(&mut shader, &surface.lit, LitColors::Surface);
-        if clips {
-            surface::add_caps(&mut shader, !of_caps.is_empty());
-        }
-    }
-    if !shot.meshes.is_empty() {
-        mesh::add_search(&mut shader);
-    }
-    if ray::ends_rays(shot) && has_lines {
-        ray::lines::add_surface(&mut shader);
-    }
+    // The depths at which rays end.
+    let has_caps = !of_caps.is_empty();
+    add_ends(&mut shader, shot, (inputs.data.meshes, &own_inputs), (has_lines, has_caps), &scales, precision)?;
     // Pixels.
     ray::add_pixels(&mut shader, shot, inputs.data.background);
     ray::layers::add(&mut shader, layers, shot);
@@ -160,6 +104,108 @@ fn of_volume(
     }
     shader.constant("CHANNELS", Constant::Int(shader.stages.channels.len() as i64));
     Ok((shader, scales))
+}
+
+/// Adds the gradient and the Hessian, and curvatures from them, as far as a query asks for them.
+fn add_derivatives(
+    shader: &mut Shader,
+    (shot, query): (&Shot, SampleQuery),
+    inputs: &ObjectInputs<'_>,
+    place: &GridPlacement,
+    scales: &Scales,
+    precision: Precision,
+) -> Result<(), GpuError> {
+    let object = shot.background();
+    if query.gradient {
+        field::gradient::add(
+            shader,
+            object.reconstruction,
+            object.normal,
+            inputs.measured,
+            scales,
+            no_normal(precision),
+            place.moved,
+        );
+        ray::add_gradient(shader, inputs.measured, scales);
+    }
+    if query.hessian {
+        let is_integer = inputs.data.volume.is_integer();
+        field::hessian::add(shader, object, is_integer, inputs.measured, scales, precision)?;
+        ray::add_curvature(shader, query);
+    }
+    if query.kappa == KappaSource::AlongRay {
+        style_transfer_functions::add_curvature_along_ray(shader, object.turn);
+        if shot.surface.is_some() {
+            surface::add_curvature_along_ray(shader);
+        }
+    }
+    Ok(())
+}
+
+/// Adds the colours of a function and its material, over the value or over two quantities. `styles` is the number of the
+/// function's styles. Returns whether styles have levels of detail.
+fn add_material(
+    shader: &mut Shader,
+    shot: &Shot,
+    inputs: &ObjectInputs<'_>,
+    styles: usize,
+    place: &GridPlacement,
+    scales: &Scales,
+) -> Result<bool, GpuError> {
+    let object = shot.background();
+    let rows = object.function.nodes().2;
+    if let Some(rows) = rows {
+        transfer::over::add(shader, shot, rows, inputs, scales)?;
+    }
+    let between = |over_value, over_two| if rows.is_some() { over_two } else { over_value };
+    match (&*object.function, &object.material) {
+        (Function::Regular(nodes), Material::Regular(lit)) => {
+            let between = between(transfer::COLORS_OVER_VALUE, transfer::over::COLORS);
+            transfer::add_colors(shader, &nodes.color, between);
+            add_light(shader, lit, LitColors::Samples);
+            Ok(false)
+        }
+        (Function::Style { nodes, names }, Material::Style(params)) if names.len() == styles => {
+            let between = between(style_transfer_functions::OVER_VALUE, transfer::over::STYLES);
+            style_transfer_functions::add(shader, shot, params, &nodes.color, place.voxel, between);
+            Ok(params.level_of_detail.is_some())
+        }
+        _ => Err(GpuError::Material),
+    }
+}
+
+/// Adds meshes and the iso-surface, at which rays end.
+fn add_ends(
+    shader: &mut Shader,
+    shot: &Shot,
+    (meshes, inputs): (&[TriangleMesh], &ObjectInputs<'_>),
+    (has_lines, has_caps): (bool, bool),
+    scales: &Scales,
+    precision: Precision,
+) -> Result<(), GpuError> {
+    if ray::ends_rays(shot) {
+        ray::add_end(shader);
+    }
+    if !shot.meshes.is_empty() {
+        mesh::add(shader, shot, (meshes, inputs), scales.value(0.0), precision)?;
+    }
+    if let Some(surface) = &shot.surface {
+        let has_mask = inputs.data.volume.mask().is_some();
+        let (kernel, slack) = (shot.background().reconstruction.kernel, ray::rounding(scales, precision));
+        surface::add_search(shader, kernel, surface.iso, inputs.measured, scales, slack, has_mask);
+        surface::add(shader, shot, surface, has_mask);
+        add_light(shader, &surface.lit, LitColors::Surface);
+        if !shot.clipping.planes.is_empty() {
+            surface::add_caps(shader, has_caps);
+        }
+    }
+    if !shot.meshes.is_empty() {
+        mesh::add_search(shader);
+    }
+    if ray::ends_rays(shot) && has_lines {
+        ray::lines::add_surface(shader);
+    }
+    Ok(())
 }
 
 /// The numbers of a shader that depend on the camera, for a shot of a volume at a place.

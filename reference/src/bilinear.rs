@@ -1,6 +1,6 @@
-//! Bilinear interpolation between the cells of a table or the texels of a picture.
+//! Bilinear interpolation between the cells of a table, the texels of a picture or four rows of voxels.
 
-use crate::number::Real;
+use crate::number::{Arithmetic, Real};
 
 /// The cell min(⌊x⌋, max(n − 2, 0)) of a coordinate clamped to [0, n − 1], among n places, and the fraction in the
 /// cell.
@@ -15,4 +15,10 @@ pub(crate) fn cell<R: Real>(x: R, n: usize) -> (usize, R) {
 #[inline(always)]
 pub(crate) fn mix<R: Real>(a: [R; 4], b: [R; 4], w: R) -> [R; 4] {
     std::array::from_fn(|c| R::lerp(a[c], b[c], w))
+}
+
+/// Numbers at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) interpolated along y, then z.
+#[inline(always)]
+pub(crate) fn bilinear<R: Arithmetic>(c: [R; 4], wy: R, wz: R) -> R {
+    R::lerp(R::lerp(c[0], c[1], wy), R::lerp(c[2], c[3], wy), wz)
 }

@@ -191,7 +191,7 @@ pub fn sweep(
     cards: &[(&'static str, Gpu)],
     progress: &dyn Fn(f64),
 ) -> Result<Sweep, Failures> {
-    // Other layers are not part of the error and would add time.
+    // The scene and its knobs. Other layers are not part of the error and would add time.
     let mut base = job.scene.clone();
     base.picture.layers = vec![LayerKind::Beauty];
     let plan = job.variant(base.clone()).plan;
@@ -205,6 +205,8 @@ pub fn sweep(
         // The base goes through the same text as all settings, so that equal scenes compare equal.
         base = knob.set(&base, &own)?;
     }
+    let (different, settings) = settings(&turned, job, (&base, &plan), cards)?;
+    // The truth of a phantom is its formula, which serves all knobs of the field.
     let phantom = match &base.volume.source {
         // The formula has all parts, and objects are drawn from voxels.
         VolumeSource::Phantom(source) if base.volume.parts.is_none() && base.objects.is_empty() => {
@@ -212,43 +214,11 @@ pub fn sweep(
         }
         VolumeSource::Phantom(_) | VolumeSource::File { .. } => None,
     };
-    // Each distinct scene is drawn once, whichever settings lead to it. `settings` has the index of its scene.
-    let mut different: Vec<(ErrorSubject, KnobVariant, Option<&Gpu>)> = Vec::new();
-    let mut settings: Vec<(&Knob, String, usize)> = Vec::new();
-    for knob in &turned {
-        let subject = ErrorSubject::of(knob, &plan);
-        let mut scenes = Vec::new();
-        if knob.key == BACKEND {
-            scenes.extend(cards.iter().map(|(name, gpu)| ((*name).to_owned(), base.clone(), Some(gpu))));
-            scenes.push((REFERENCE.to_owned(), base.clone(), None));
-        } else {
-            for setting in knob.settings {
-                scenes.push(((*setting).to_owned(), knob.set(&base, setting)?, None));
-            }
-            if scenes.iter().all(|(_, scene, _)| *scene != base)
-                && let Some(own) = knob.of(&base)
-            {
-                scenes.insert(0, (own, base.clone(), None));
-            }
-        }
-        for (setting, scene, card) in scenes {
-            let is_same = |other: &(ErrorSubject, KnobVariant, Option<&Gpu>)| {
-                let place = |card: Option<&Gpu>| card.map(std::ptr::from_ref);
-                other.0 == subject && place(other.2) == place(card) && other.1.scene == scene
-            };
-            let known = different.iter().position(is_same);
-            let at = known.unwrap_or(different.len());
-            if known.is_none() {
-                different.push((subject, job.variant(scene), card));
-            }
-            settings.push((knob, setting, at));
-        }
-    }
-    // One exact picture serves all knobs of the field.
     let is_of_field =
         |knob: &Knob| knob.limit == Limit::Field && ErrorSubject::of(knob, &plan) == ErrorSubject::Picture;
     let of_field = turned.iter().any(|knob| is_of_field(knob));
     let analytic = phantom.filter(|_| of_field).map(|phantom| exact(job, &base, &all, &*phantom)).transpose()?;
+    // Output and time of every scene.
     let mut variants: Vec<TimedVariant> =
         different.iter().map(|(subject, knobs, card)| TimedVariant::new(job, *subject, knobs, *card)).collect();
     time(&mut variants, options.runs.max(1), progress)?;
@@ -315,6 +285,55 @@ fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Kno
         Failure::new(format!("{key:?} is no knob that the scene uses"), job.scene.given.position(""), remedy)
     }))?;
     Ok(all.iter().filter(|knob| only.is_empty() || only.contains(&knob.key)).collect())
+}
+
+/// A scene that is drawn for its output, and the graphics card that draws it; none: the reference.
+type DistinctScene<'c> = (ErrorSubject, KnobVariant, Option<&'c Gpu>);
+
+/// A knob, its setting, and the index of the scene to which it leads.
+type KnobSetting<'k> = (&'k Knob, String, usize);
+
+/// The distinct scenes to which the settings of knobs lead, and every setting.
+fn settings<'k, 'c>(
+    turned: &[&'k Knob],
+    job: &Job,
+    (base, plan): (&Scene, &Plan),
+    cards: &'c [(&'static str, Gpu)],
+) -> Result<(Vec<DistinctScene<'c>>, Vec<KnobSetting<'k>>), Failures> {
+    let mut different: Vec<DistinctScene> = Vec::new();
+    let mut settings = Vec::new();
+    for &knob in turned {
+        let subject = ErrorSubject::of(knob, plan);
+        // The scenes of this knob, from coarse to fine; the scene's own setting first if it is none of them.
+        let mut scenes = Vec::new();
+        if knob.key == BACKEND {
+            scenes.extend(cards.iter().map(|(name, gpu)| ((*name).to_owned(), base.clone(), Some(gpu))));
+            scenes.push((REFERENCE.to_owned(), base.clone(), None));
+        } else {
+            for setting in knob.settings {
+                scenes.push(((*setting).to_owned(), knob.set(base, setting)?, None));
+            }
+            if scenes.iter().all(|(_, scene, _)| scene != base)
+                && let Some(own) = knob.of(base)
+            {
+                scenes.insert(0, (own, base.clone(), None));
+            }
+        }
+        // A scene that is already there is not drawn again.
+        for (setting, scene, card) in scenes {
+            let is_same = |other: &DistinctScene| {
+                let place = |card: Option<&Gpu>| card.map(std::ptr::from_ref);
+                other.0 == subject && place(other.2) == place(card) && other.1.scene == scene
+            };
+            let known = different.iter().position(is_same);
+            let at = known.unwrap_or(different.len());
+            if known.is_none() {
+                different.push((subject, job.variant(scene), card));
+            }
+            settings.push((knob, setting, at));
+        }
+    }
+    Ok((different, settings))
 }
 
 /// Draws a phantom's formula with every knob of the field at its finest setting.

@@ -1,13 +1,10 @@
 //! Coefficients of a B-spline on a volume's grid, with a border that continues them.
 
-use super::kernel::bspline;
-use super::place::CellPosition;
 use super::prefilter::Prefilter;
 use super::stencil::{Stencils, beyond};
-use super::tensor::{self, Rows, RowsFn, Sum};
-use super::voxel_hessian::of_spline;
+use super::tensor::{Rows, RowsFn, Sum};
 use crate::number::lanes::wide;
-use crate::number::{Real, RowOfFour, Sym3, Vec3};
+use crate::number::{Real, RowOfFour};
 use drypoint_scene::measured::PaddedNumbers;
 use drypoint_scene::parallel;
 use fearless_simd::Simd;
@@ -189,15 +186,10 @@ impl<R: Real> Coefficients<R> {
         sum.over(&RowsOfFour { simd, window, strides: [px, plane] })
     }
 
-    /// Gradient and Hessian of the cubic spline along the index axes.
-    #[inline]
-    pub(super) fn cubic_derivatives(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
-        self.sum(at.cell, &tensor::Second { w: at.w, taps: bspline::taps })
-    }
-
-    /// Like [`cubic_derivatives`](Self::cubic_derivatives), but at a voxel. The border must have at least one
+    /// Differences to the coefficient of a voxel, which is tap 1 on each axis. The border must have at least one
     /// coefficient.
-    pub(super) fn derivatives_at(&self, [x, y, z]: [usize; 3]) -> (Vec3<f64>, Sym3<f64>)
+    #[inline(always)]
+    pub(super) fn differences_around(&self, [x, y, z]: [usize; 3]) -> impl Fn(usize, usize, usize) -> f64 + '_
     where
         R: Into<f64>,
     {
@@ -205,9 +197,9 @@ impl<R: Real> Coefficients<R> {
         let before = self.pad - 1;
         let from = ((z + before) * py + y + before) * px + x + before;
         let window = &self.data[from..from + 2 * (px * py + px + 1) + 1];
-        let number = |i: usize, j: usize, k: usize| window[(k * py + j) * px + i].into();
+        let number = move |i: usize, j: usize, k: usize| window[(k * py + j) * px + i].into();
         let first: f64 = number(1, 1, 1);
-        of_spline(|i, j, k| number(i, j, k) - first)
+        move |i, j, k| number(i, j, k) - first
     }
 
     /// Lowest and highest number that the cells from `first` up to, not including, `end` read. The constant is

@@ -34,7 +34,6 @@ pub(crate) use cell_ranges::CELLS;
 pub(crate) use columns::Columns;
 pub use drypoint_scene::shot::{GradientEstimator, HessianEstimator, Kernel, Outside, Reconstruction, Rung};
 pub use error::FieldError;
-pub use exact::Exact;
 pub(crate) use gradient_range::{quantile_of_norms, touches as touches_mask};
 pub use place::CellPosition;
 pub(crate) use place::Cells;
@@ -46,6 +45,7 @@ use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::volume::{Bricks, Volume};
+use exact::Exact;
 use gradient::regression::Regression;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -223,32 +223,11 @@ impl<'v, R: Real> Field<'v, R> {
         self.no_normal_below
     }
 
-    /// The value at a voxel. It is the formula's value if there is a formula. If a `regression` gradient was prepared,
-    /// it is d of the fit ([STIP-1]). Otherwise it is the voxel's own value.
-    pub fn smoothed_value(&self, voxel: [usize; 3]) -> R {
-        match &self.regression {
-            _ if self.formula.is_some() => self.value(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
-            Some(regression) => self.to_value(regression.value_at_voxel(self, voxel)),
-            None => R::from_f64(self.volume.value(voxel)),
-        }
-    }
-
     /// Replaces the voxels by the formula of a phantom and its derivatives. Reconstructions converge to this field
     /// ([COST-2]). Ranges of bricks remain those of the voxels.
     pub fn with_formula(self, phantom: &'v dyn Phantom) -> Self {
         let exact = Exact::new(phantom, self.volume.grid(), self.exponent);
         Self { formula: Some(exact), ..self }
-    }
-
-    /// The field's sampler.
-    pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
-        if self.is_trilinear() { AnySampler::Trilinear(self.trilinear()) } else { AnySampler::Any(self) }
-    }
-
-    /// Whether values are the voxels' trilinear interpolation.
-    #[inline(always)]
-    fn is_trilinear(&self) -> bool {
-        matches!(self.kernel, KernelData::Trilinear) && self.formula.is_none()
     }
 
     /// Whether samplers give gradients. Only a field with `regression`, prepared for values alone, has none.
@@ -260,12 +239,6 @@ impl<'v, R: Real> Field<'v, R> {
     #[inline(always)]
     pub(crate) fn has_one_gradient(&self) -> bool {
         self.how.gradient == GradientEstimator::Analytic && matches!(self.second, Second::Analytic)
-    }
-
-    /// The sampler of a field that [`is_trilinear`](Self::is_trilinear).
-    #[inline(always)]
-    fn trilinear(&self) -> TrilinearSampler<'_, 'v, R> {
-        TrilinearSampler(self)
     }
 
     /// The cell of a position in index space, inside the box of [SPACE-1]. It is the same for every kernel.

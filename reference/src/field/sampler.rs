@@ -1,6 +1,6 @@
 //! Values and derivatives at positions. The ray loop is compiled for the types of this file.
 
-use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
+use super::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Interpolant, Trilinear};
 use super::place::CellPosition;
 use super::{Field, GradientEstimator, KernelData, Second, gradient, hessian};
 use crate::number::{Real, Sym3, Vec3};
@@ -94,20 +94,6 @@ pub trait Sampler<R: Real>: Sync {
     }
 }
 
-/// A kernel: value and derivatives along the index axes, computed from the numbers that stencils read.
-pub(super) trait Interpolant<R: Real>: Sync {
-    /// The value.
-    fn value(&self, field: &Field<'_, R>, at: CellPosition<R>) -> R;
-
-    /// The derivative of the kernel, for the estimator `analytic`.
-    fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R>;
-
-    /// Gradient and Hessian of a C² kernel. For the other kernels they are central differences, which `auto` takes.
-    fn second(&self, field: &Field<'_, R>, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
-        (gradient::central::gradient(field, at), hessian::central::hessian(field, at))
-    }
-}
-
 /// A field whose kernel is trilinear and that has no formula. Loops over samples are compiled separately for it. Eight
 /// voxels are read so quickly that decisions and calls at each sample would take most of the time.
 #[derive(Clone, Copy)]
@@ -142,13 +128,40 @@ macro_rules! with_kernel {
 }
 pub(super) use with_kernel;
 
-impl<R: Real> Field<'_, R> {
+impl<'v, R: Real> Field<'v, R> {
+    /// The field's sampler.
+    pub fn sampler(&self) -> AnySampler<'_, 'v, R> {
+        if self.is_trilinear() { AnySampler::Trilinear(self.trilinear()) } else { AnySampler::Any(self) }
+    }
+
+    /// Whether values are the voxels' trilinear interpolation.
+    #[inline(always)]
+    fn is_trilinear(&self) -> bool {
+        matches!(self.kernel, KernelData::Trilinear) && self.formula.is_none()
+    }
+
+    /// The sampler of a field that [`is_trilinear`](Self::is_trilinear).
+    #[inline(always)]
+    fn trilinear(&self) -> TrilinearSampler<'_, 'v, R> {
+        TrilinearSampler(self)
+    }
+
+    /// The value at a voxel. It is the formula's value if there is a formula. If a `regression` gradient was prepared,
+    /// it is d of the fit ([STIP-1]). Otherwise it is the voxel's own value.
+    pub fn smoothed_value(&self, voxel: [usize; 3]) -> R {
+        match &self.regression {
+            _ if self.formula.is_some() => self.value(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64)))),
+            Some(regression) => self.to_value(regression.value_at_voxel(&self.stencils, voxel)),
+            None => R::from_f64(self.volume.value(voxel)),
+        }
+    }
+
     /// The gradient of the numbers along the index axes by an estimator that is the same for every kernel.
     #[inline(always)]
     pub(super) fn estimated_gradient(&self, at: CellPosition<R>) -> Vec3<R> {
         match (self.how.gradient, &self.regression) {
             (GradientEstimator::Sobel, _) => gradient::sobel::gradient(self, at),
-            (GradientEstimator::Regression, Some(regression)) => regression.gradient(self, at),
+            (GradientEstimator::Regression, Some(regression)) => regression.gradient(&self.stencils, at),
             (GradientEstimator::Regression, None) => {
                 panic!("a field prepared without Rung::Gradient was asked for a gradient")
             }
@@ -160,7 +173,7 @@ impl<R: Real> Field<'_, R> {
     #[inline(always)]
     pub(super) fn estimated_second(&self, at: CellPosition<R>) -> (Vec3<R>, Sym3<R>) {
         match &self.second {
-            Second::Gaussian(coefficients) => coefficients.cubic_derivatives(at),
+            Second::Gaussian(coefficients) => Bspline(coefficients).second(self, at),
             Second::NotPrepared => panic!("a field prepared without Rung::Hessian was asked for a Hessian"),
             _ => (gradient::central::gradient(self, at), hessian::central::hessian(self, at)),
         }

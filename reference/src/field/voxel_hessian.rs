@@ -17,7 +17,7 @@ impl Field<'_, f64> {
         let near = match &self.second {
             _ if self.formula.is_some() => None,
             Second::Central if self.stencils.surrounds_twice(voxel) => Some(self.central(voxel)),
-            Second::Gaussian(coefficients) => Some(coefficients.derivatives_at(voxel)),
+            Second::Gaussian(coefficients) => Some(of_spline(coefficients.differences_around(voxel))),
             _ => None,
         };
         match near {
@@ -66,7 +66,7 @@ pub(super) fn bends(d: impl Fn(usize, usize, usize) -> f64) -> Sym3<f64> {
 /// Gradient and Hessian of a cubic B-spline at one of its coefficients, from the weights (1, 4, 1)/6 along each axis
 /// and their derivatives. Tap 1 of `d` is the coefficient at the voxel.
 #[inline(always)]
-pub(super) fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {
+fn of_spline(d: impl Fn(usize, usize, usize) -> f64) -> (Vec3<f64>, Sym3<f64>) {
     let mean = |c: [f64; 3]| (c[0] + c[2]) * (1.0 / 6.0) + c[1] * (2.0 / 3.0);
     let first = |c: [f64; 3]| 0.5 * (c[2] - c[0]);
     let second = |c: [f64; 3]| (c[0] + c[2]) - 2.0 * c[1];

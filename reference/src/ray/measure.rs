@@ -1,7 +1,8 @@
 //! Facts of a shot's data for renderers that read no voxels themselves.
 
 use super::error::RenderError;
-use super::prepare::{Fields, within_planes};
+use super::prepare::within_planes;
+use super::prepare_object::Fields;
 use crate::mesh::MeshSearch;
 use crate::number::Real;
 use crate::transfer::over::LabelDistance;

@@ -36,7 +36,7 @@ pub(super) fn cast_apart<R: Real>(
 /// Whether the ray through a point has lines on it, objects, or a cut.
 fn is_alone<R: Real>(prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
     let (view, object) = (&prepared.view, &prepared.object);
-    let meets = |objects: &PreparedCombination<'_, R>| objects.meets(prepared, point);
+    let meets = |objects: &PreparedCombination<'_, R>| objects.meets(&prepared.view, &prepared.lattice, point);
     !prepared.lines_at(point).is_empty() || prepared.combination.as_ref().is_some_and(meets) || {
         let ray = || IndexRay::<R>::new(&view.ray(point[0], point[1]), view, &prepared.lattice, object.volume.grid());
         !object.clip.planes.is_empty() && ray().cut_sample(&object.clip.planes, object.ends).is_some()

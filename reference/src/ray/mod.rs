@@ -15,6 +15,7 @@ pub mod opacity;
 mod pick;
 mod pixel_sum;
 mod prepare;
+mod prepare_object;
 mod prepared;
 mod prepared_combination;
 mod prepared_halos;

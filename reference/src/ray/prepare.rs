@@ -2,27 +2,27 @@
 
 use super::brick_occupancy::BrickOccupancy;
 use super::cell_mask::CellMask;
-use super::composite::covering_objects;
+use super::composite::{covering_objects, depth_of_part};
 use super::error::RenderError;
 use super::lattice::{MOST_ACROSS, MOST_SAMPLES, samples_in};
+use super::prepare_object::{Fields, MovedGrid, prepare_object};
 use super::prepared::Prepared;
-use super::prepared_combination::PreparedCombination;
+use super::prepared_combination::{PreparedCombination, PreparedFunnel};
 use super::prepared_halos::PreparedHalos;
 use super::prepared_meshes::PreparedMeshes;
 use super::prepared_surface::PreparedSurface;
 use super::sample::need::Needs;
-use super::sample::{EyeAxes, Lit, OverTwo, PreparedClip, PreparedObject, SampleShader};
-use crate::field::{Field, Reconstruction, Rung, quantile_of_norms};
+use super::sample::{Camera, EyeAxes, Lit, SampleShader};
 use crate::labels::Labels;
-use crate::number::{Mat3, Real, Vec3};
-use crate::transfer::{IndexTable, Piecewise, gate};
+use crate::number::Real;
+use crate::volumeshop::{FunnelMap, guard};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::inputs::{Inputs, ObjectData};
+use drypoint_scene::parallel;
 use drypoint_scene::picture::LayerKind;
-use drypoint_scene::shot::{Axis, BlendSpace, Clipping, GradientRange, MOST_PLANES, Object, Shot};
+use drypoint_scene::shot::{Axis, BlendSpace, MOST_PLANES, Object, Shot};
 use drypoint_scene::space::Grid;
-use drypoint_scene::view::View;
-use drypoint_scene::volume::{BRICK, Bricks, Volume};
+use drypoint_scene::volume::{BRICK, Bricks};
 
 /// Prepares a shot for casting.
 pub(super) fn prepare<'a, R: Real>(
@@ -105,134 +105,44 @@ pub(super) fn prepare<'a, R: Real>(
 /// Maps the funnels of smooth cutaways, as the camera sees them ([VS-7]).
 fn map_funnels<R: Real>(prepared: &mut Prepared<'_, R>, counts: &mut Counts) {
     let Some(mut combination) = prepared.combination.take() else { return };
-    let maps: Vec<_> = (0..combination.cutaways.len()).map(|i| combination.funnel_of(i, prepared, counts)).collect();
+    let maps: Vec<_> = (0..combination.cutaways.len()).map(|i| funnel_of(i, &combination, prepared, counts)).collect();
     for (cutaway, map) in combination.cutaways.iter_mut().zip(maps) {
         cutaway.funnel = map;
     }
     prepared.combination = Some(combination);
 }
 
-/// Prepared fields, and ranges of |g|. Objects of one volume share them.
-pub(super) struct Fields<'a, R> {
-    rung: Rung,
-    fields: Vec<(Reconstruction, Field<'a, R>)>,
-    ranges: Vec<(&'a Volume, GradientRange, (R, R))>,
-}
-
-impl<'a, R: Real> Fields<'a, R> {
-    /// An empty collection. Fields are prepared for the highest rung of the shot's objects.
-    pub(super) fn new(shot: &Shot) -> Self {
-        let rung = shot.objects.iter().map(|object| object.rung).max().unwrap_or(Rung::Value);
-        Self { rung, fields: Vec::new(), ranges: Vec::new() }
-    }
-
-    /// The field of an object's volume.
-    pub(super) fn of(&mut self, volume: &'a Volume, object: &Object) -> Result<Field<'a, R>, RenderError> {
-        let how = object.reconstruction;
-        let known = self.fields.iter().find(|(known, field)| *known == how && std::ptr::eq(field.volume(), volume));
-        if let Some((_, field)) = known {
-            return Ok(field.clone());
-        }
-        let field = Field::<R>::new(volume, how, self.rung)?;
-        self.fields.push((how, field.clone()));
-        Ok(field)
-    }
-
-    /// The highest rung of the shot's objects.
-    pub(super) fn rung(&self) -> Rung {
-        self.rung
-    }
-
-    /// The range of |g| of an object's volume.
-    pub(super) fn range(&mut self, field: &Field<'a, R>, object: &Object, counts: &mut Counts) -> Option<(R, R)> {
-        let range = object.gradient_range?;
-        let volume = field.volume();
-        let known = self.ranges.iter().find(|(known, of, _)| std::ptr::eq(*known, volume) && *of == range);
-        if let Some((.., known)) = known {
-            return Some(*known);
-        }
-        let found = gradient_range(field, range, counts);
-        self.ranges.push((volume, range, found));
-        Some(found)
-    }
-}
-
-/// The properties of the picture's camera on which materials depend.
-pub(crate) struct Camera<'c> {
-    pub(crate) view: &'c View,
-    pub(crate) rays_across: usize,
-    /// The smallest voxel side of `[volume]`, in world units.
-    pub(crate) voxel: f64,
-}
-
-impl<'c> Camera<'c> {
-    /// The camera of a shot over the grid of `[volume]`.
-    fn new(shot: &'c Shot, grid: &Grid) -> Self {
-        Self { view: &shot.view, rays_across: shot.rays_across, voxel: grid.voxel() }
-    }
-}
-
-/// The place where a volume is drawn.
-pub(super) struct MovedGrid<R> {
-    /// The grid of the volume there.
-    pub(super) grid: Grid,
-    /// L_Tᵀ; none if the volume is not moved.
-    pub(super) moved: Option<Mat3<R>>,
-}
-
-/// Prepares a volume with its function and its material. Its samples may need any quantity.
-pub(super) fn prepare_object<'a, R: Real>(
-    (object, clipping): (&Object, &Clipping),
-    data: &ObjectData<'a>,
-    place: MovedGrid<R>,
-    field: Field<'a, R>,
-    camera: &Camera<'_>,
-    fields: &mut Fields<'a, R>,
+/// The map of a cutaway's funnel. Returns none for a hard cut.
+fn funnel_of<R: Real>(
+    cutaway: usize,
+    combination: &PreparedCombination<'_, R>,
+    prepared: &Prepared<'_, R>,
     counts: &mut Counts,
-) -> Result<PreparedObject<'a, R>, RenderError> {
-    // The function, and the range of |g| if something reads it.
-    let gradient_range = fields.range(&field, object, counts);
-    let (at, opacity, rows) = object.function.nodes();
-    let (over_value, over_two) = match rows {
-        None => (Piecewise::new(at, opacity)?, None),
-        Some(rows) => {
-            let over_two = OverTwo::new((at, opacity), rows, data, object, &field, counts)?;
-            (gate::over_value(at, opacity, rows)?, Some(over_two))
-        }
+) -> Option<PreparedFunnel> {
+    let params = combination.cutaways[cutaway].params;
+    if params.funnel <= 0.0 {
+        return None;
+    }
+    let of_halos = prepared.halos.as_ref().filter(|halos| halos.seeds.is_some());
+    let margin = of_halos.map_or(0, |halos| halos.guard().div_ceil(prepared.rays_across));
+    let (size, guard) = (prepared.view.size.map(|n| n + 2 * margin), guard(params.funnel));
+    let [width, height] = size.map(|n| n + 2 * guard);
+    let row = |y: usize| {
+        let mut counts = Counts::default();
+        let centre = |i: usize| i as f64 - (guard + margin) as f64 + 0.5;
+        let depth = |x: usize| {
+            depth_of_part(prepared, combination, [centre(x), centre(y)], (params.part, params.cut), &mut counts)
+        };
+        let depths: Vec<f64> = (0..width).map(depth).collect();
+        (depths, counts)
     };
-    let table = object.function.table().map(|(index, nodes)| IndexTable::new(index, nodes));
-    if let Some(table) = &table {
-        counts.bytes.insert("table".into(), table.bytes() as u64);
+    let rows: Vec<(Vec<f64>, Counts)> = parallel::map(height, &row);
+    let mut depths = Vec::with_capacity(width * height);
+    for (row, own) in rows {
+        depths.extend(row);
+        counts.add(&own);
     }
-    // The styles of caps follow those of the function.
-    let of_function = data.styles.len().saturating_sub(clipping.styles.len());
-    let (styles, of_caps) = data.styles.split_at(of_function);
-    let shader = SampleShader::new(object, camera, styles)?;
-    if let Some(bytes) = shader.mipmap_bytes() {
-        counts.bytes.insert("style_mipmaps".into(), bytes as u64);
-    }
-    Ok(PreparedObject {
-        volume: data.volume,
-        ends: data.volume.grid().index_box().map(Vec3::from_glam),
-        grid: place.grid,
-        moved: place.moved,
-        clip: PreparedClip::new(clipping, of_caps)?,
-        function: over_value,
-        table,
-        over_two,
-        shader,
-        query: object.query,
-        needs: Needs::Anything,
-        first: object.first,
-        meeting: object.meeting,
-        gradient_range,
-        reference_length: object.reference_length,
-        outside: object.reconstruction.outside,
-        normal: object.normal,
-        turn: object.turn,
-        no_normal_below: field.no_normal_below(),
-        field,
-    })
+    Some(PreparedFunnel { map: FunnelMap::new(size, params.funnel, &depths), size, margin })
 }
 
 /// Takes over the camera's data, the picture's size and its rays from the same shot with another camera, size or rays.
@@ -292,20 +202,6 @@ fn skip<R: Real>(bricks: &Bricks, object: &Object, data: &ObjectData<'_>) -> Bri
     // Finding the labels that occur reads each voxel, so this is tested last.
     let can_be = |range, among: Option<&[u32]>| object.function.can_be_visible(range, among, rounded);
     BrickOccupancy::new(bricks, |brick, range| can_be(range, None) && can_be(range, occurring(brick).as_deref()))
-}
-
-/// lo and hi − lo of |g| ([VAL-2]), times the power of two of [SPACE-4].
-pub(super) fn gradient_range<R: Real>(field: &Field<'_, R>, range: GradientRange, counts: &mut Counts) -> (R, R) {
-    let scaled = |g: f64| drypoint_scene::math::scale_by_power_of_two(g, -field.scale_exponent());
-    let [lo, hi] = match range {
-        GradientRange::Fixed(range) => range.map(scaled),
-        GradientRange::Quantile(q) => {
-            let (hi, voxels) = quantile_of_norms(field, q);
-            counts.preprocess.insert("gradients".into(), voxels);
-            [0.0, hi]
-        }
-    };
-    (R::from_f64(lo), R::from_f64(hi - lo))
 }
 
 /// The labels at the data's positions, if the function over the value has a row for each label.

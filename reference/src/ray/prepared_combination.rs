@@ -1,22 +1,19 @@
 //! The objects of a picture prepared for its samples ([VS-2] … [VS-4], [VS-7]).
 
-use super::composite::depth_of_part;
 use super::error::RenderError;
 use super::lattice::{IndexRay, samples_in_box};
-use super::prepare::{Camera, Fields, MovedGrid, prepare_object};
-use super::prepared::Prepared;
+use super::prepare_object::{Fields, MovedGrid, prepare_object};
 use super::prepared_seeds::{PreparedSeeds, can_seed_at};
-use super::sample::PreparedObject;
+use super::sample::{Camera, PreparedObject};
 use crate::field::Field;
 use crate::number::{Mat3, Real};
 use crate::transfer::Piecewise;
 use crate::volumeshop::far_side::through_box;
-use crate::volumeshop::{FunnelMap, Memberships, guard};
+use crate::volumeshop::{FunnelMap, Memberships};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::inputs::{Inputs, ObjectData};
 use drypoint_scene::intersection_picture::IntersectionPicture;
-use drypoint_scene::parallel;
 use drypoint_scene::shot::{
     Combination, Cutaway, Fuzzy, HaloParams, HaloSeed, Halos, Intersection, LabelLookup, Lattice, Membership, Object,
     Part, Role, SampleQuery, SelectionParams, Shot, placed,
@@ -97,11 +94,11 @@ pub(super) struct PreparedCutaway {
 /// The map of a funnel over the picture and the guard band of its halos. Seeds in the guard band are cut as in a larger
 /// picture.
 pub(super) struct PreparedFunnel {
-    map: FunnelMap,
+    pub(super) map: FunnelMap,
     /// Pixels of the map across and down.
-    size: [usize; 2],
+    pub(super) size: [usize; 2],
     /// Pixels of the guard band.
-    margin: usize,
+    pub(super) margin: usize,
 }
 
 /// An intersection ready for samples.
@@ -176,41 +173,8 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         })
     }
 
-    /// The map of a cutaway's funnel. Returns none for a hard cut.
-    pub(super) fn funnel_of(
-        &self,
-        cutaway: usize,
-        prepared: &Prepared<'_, R>,
-        counts: &mut Counts,
-    ) -> Option<PreparedFunnel> {
-        let params = self.cutaways[cutaway].params;
-        if params.funnel <= 0.0 {
-            return None;
-        }
-        let of_halos = prepared.halos.as_ref().filter(|halos| halos.seeds.is_some());
-        let margin = of_halos.map_or(0, |halos| halos.guard().div_ceil(prepared.rays_across));
-        let (size, guard) = (prepared.view.size.map(|n| n + 2 * margin), guard(params.funnel));
-        let [width, height] = size.map(|n| n + 2 * guard);
-        let row = |y: usize| {
-            let mut counts = Counts::default();
-            let centre = |i: usize| i as f64 - (guard + margin) as f64 + 0.5;
-            let depth = |x: usize| {
-                depth_of_part(prepared, self, [centre(x), centre(y)], (params.part, params.cut), &mut counts)
-            };
-            let depths: Vec<f64> = (0..width).map(depth).collect();
-            (depths, counts)
-        };
-        let rows: Vec<(Vec<f64>, Counts)> = parallel::map(height, &row);
-        let mut depths = Vec::with_capacity(width * height);
-        for (row, own) in rows {
-            depths.extend(row);
-            counts.add(&own);
-        }
-        Some(PreparedFunnel { map: FunnelMap::new(size, params.funnel, &depths), size, margin })
-    }
-
     /// Whether the ray through a point of the picture can meet an object or a cutaway.
-    pub(super) fn meets(&self, prepared: &Prepared<'_, R>, point: [f64; 2]) -> bool {
+    pub(super) fn meets(&self, view: &View, lattice: &Lattice, point: [f64; 2]) -> bool {
         let in_funnel = |cutaway: &PreparedCutaway| cutaway.funnel.as_ref().is_some_and(|funnel| funnel.cuts(point));
         if self.cutaways.iter().any(in_funnel) {
             return true;
@@ -218,9 +182,9 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         if self.reach.is_some_and(|[lo, hi]| (0..2).any(|a| point[a] < lo[a] || hi[a] < point[a])) {
             return false;
         }
-        let pixel = prepared.view.ray(point[0], point[1]);
+        let pixel = view.ray(point[0], point[1]);
         let through = |grid: &Grid, ends: Option<[DVec3; 2]>| {
-            let line = IndexRay::<f64>::new(&pixel, &prepared.view, &prepared.lattice, grid).line();
+            let line = IndexRay::<f64>::new(&pixel, view, lattice, grid).line();
             ends.is_some_and(|ends| through_box(line, ends).is_some())
         };
         self.selections

@@ -44,11 +44,11 @@ const OF_HALOS: &[&str] = &[
 /// A halo by opacity.
 const HALO: Settings = &[("halo", "[{ kind = \"occlusive\" }]")];
 
-/// An effect over [`STYLE`] that adds nothing which is counted.
+/// An effect that adds nothing which is counted.
 const NOTHING: Effect = Effect {
     name: "",
     asked_by: "",
-    base: STYLE,
+    base: "",
     without: &[],
     with: &[],
     only: &[],
@@ -58,536 +58,173 @@ const NOTHING: Effect = Effect {
     others: &[],
 };
 
+/// The effects, a few lines each: the name, what asks for it, the scene of both, and the fields that are not empty.
+macro_rules! effects {
+    ($($name:literal by $asked_by:literal on $base:ident: $($field:ident $value:tt),*;)*) => {
+        &[$(Effect { name: $name, asked_by: $asked_by, base: $base, $($field: &$value,)* ..NOTHING }),*]
+    };
+}
+
 /// Every effect that exists.
-pub(super) const EFFECTS: &[Effect] = &[
-    Effect {
-        name: "Blinn–Phong shading",
-        asked_by: "`[shading]`",
-        base: REGULAR,
-        with: &[("shading.model", "phong")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "shading in tones",
-        asked_by: "`shading.model = \"toon\"`",
-        base: REGULAR,
-        with: &[("shading.model", "toon")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "shading by a lighting function",
-        asked_by: "`shading.model = \"lighting-function\"`",
-        base: REGULAR,
-        with: &[("shading.model", "lighting-function")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a lighting function that enhances opacities",
-        asked_by: "`shading.preset`, with contours or `\"gradient\"`",
-        base: REGULAR,
-        without: &[("shading.model", "lighting-function")],
-        with: &[("shading.model", "lighting-function"), ("shading.preset", "gradient")],
-        only: &["preprocess.gradients"],
+pub(super) const EFFECTS: &[Effect] = effects! {
+    "Blinn–Phong shading" by "`[shading]`" on REGULAR: with [("shading.model", "phong")], only ["gradients"];
+    "shading in tones" by "`shading.model = \"toon\"`" on REGULAR: with [("shading.model", "toon")], only ["gradients"];
+    "shading by a lighting function" by "`shading.model = \"lighting-function\"`" on REGULAR:
+        with [("shading.model", "lighting-function")], only ["gradients"];
+    "a lighting function that enhances opacities" by "`shading.preset`, with contours or `\"gradient\"`" on REGULAR:
+        without [("shading.model", "lighting-function")],
+        with [("shading.model", "lighting-function"), ("shading.preset", "gradient")], only ["preprocess.gradients"],
         // What is more opaque ends rays earlier.
-        others: &["gradients", "samples", "without_normal"],
-        ..NOTHING
-    },
-    Effect {
-        name: "silhouettes on shading",
-        asked_by: "`[shading.silhouette]`",
-        base: REGULAR,
-        without: &[("shading.model", "toon")],
-        with: &[("shading.model", "toon"), ("shading.silhouette.offset", "0.45")],
-        ..NOTHING
-    },
-    Effect {
-        name: "silhouettes and tones of no light",
-        asked_by: "`[shading.silhouette]`",
-        base: REGULAR,
-        without: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
-        with: &[
-            ("shading.model", "toon"),
-            ("shading.toon.tones", "[[0, \"white\"]]"),
-            ("shading.silhouette.offset", "0.45"),
-        ],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "view-dependent opacity",
-        asked_by: "`shading.view_opacity`",
-        base: REGULAR,
-        without: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
-        with: &[("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"), ("shading.view_opacity", "0.1")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "contours of a constant threshold",
-        asked_by: "`contours.kappa = \"none\"`",
-        with: &[("contours.kappa", "none")],
-        ..NOTHING
-    },
-    Effect {
-        name: "contours with κ along the ray",
-        asked_by: "`contours.kappa = \"ray\"`",
-        with: &[("contours.kappa", "ray")],
-        more: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "contours with the exact κ",
-        asked_by: "`contours.kappa = \"exact\"`",
-        with: &[("contours.kappa", "exact")],
-        only: &["hessians", "bytes.smoothed"],
-        ..NOTHING
-    },
-    Effect {
-        name: "contours that fade",
-        asked_by: "`contours.fade`",
-        without: &[("contours.kappa", "none")],
-        with: &[("contours.kappa", "none"), ("contours.fade", "[0.1, 0.2]")],
-        only: &["preprocess.gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "illustrative transparency",
-        asked_by: "`transfer.transparency = \"illustrative\"`",
-        with: &[("transfer.transparency", "illustrative")],
-        only: &["preprocess.gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "mip-maps of styles, by the gradient",
-        asked_by: "`[style_mipmaps]`",
-        with: &[("style_mipmaps.curvature_bias", "0")],
-        only: &["bytes.style_mipmaps", "preprocess.gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "mip-maps of styles, by curvature too",
-        asked_by: "`style_mipmaps.curvature_bias`",
-        without: &[("style_mipmaps.curvature_bias", "0")],
-        with: &[("style_mipmaps.curvature_bias", "1")],
-        more: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over the gradient's magnitude",
-        asked_by: "`transfer.over`",
-        base: REGULAR,
-        with: &[
-            ("transfer.nodes", "off"),
-            ("transfer.over", "[\"value\", \"gradient-magnitude\"]"),
-            ("transfer.rows", ROWS),
-        ],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over a distance",
-        asked_by: "`transfer.over`",
-        base: REGULAR,
-        with: &[
-            ("transfer.nodes", "off"),
-            ("transfer.over", "[\"value\", { distance = [48, 48, 48] }]"),
-            ("transfer.rows", ROWS),
-        ],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over a curvature",
-        asked_by: "`transfer.over`",
-        base: REGULAR,
-        with: &[("transfer.nodes", "off"), ("transfer.over", "[\"value\", \"k1\"]"), ("transfer.rows", ROWS)],
-        only: &["gradients", "hessians", "bytes.smoothed"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over labels",
-        asked_by: "`volume.labels`",
-        base: REGULAR,
-        with: &[
-            ("volume.labels", "{folder}/labels.nrrd"),
-            ("transfer.nodes", "off"),
-            ("transfer.over", "[\"value\", \"label\"]"),
-            ("transfer.rows", LABEL_ROWS),
-        ],
-        only: &["bytes.labels"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over the distance to a label",
-        asked_by: "`transfer.over`",
-        base: REGULAR,
-        with: &[
-            ("volume.labels", "{folder}/labels.nrrd"),
-            ("transfer.nodes", "off"),
-            ("transfer.over", "[\"value\", { distance_to_label = 1 }]"),
-            ("transfer.rows", ROWS),
-        ],
-        only: &["bytes.labels", "bytes.label distance", "preprocess.label distances"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a function over a further volume",
-        asked_by: "`transfer.over`",
-        base: REGULAR,
-        with: &[
-            ("transfer.nodes", "off"),
-            ("transfer.over", "[\"value\", { volume = \"{folder}/labels.nrrd\" }]"),
-            ("transfer.rows", ROWS),
-        ],
-        only: &["bytes.further volume"],
-        ..NOTHING
-    },
-    Effect {
-        name: "the layer `normal`",
-        asked_by: "`picture.layers`",
-        base: REGULAR,
-        with: &[("picture.layers", "[\"beauty\", \"normal\"]")],
-        only: &["gradients"],
-        more: &["bytes.picture"],
-        ..NOTHING
-    },
-    Effect {
-        name: "the layer `curvature`",
-        asked_by: "`picture.layers`",
-        base: REGULAR,
-        with: &[("picture.layers", "[\"beauty\", \"curvature\"]")],
-        only: &["gradients", "hessians", "bytes.smoothed"],
-        more: &["bytes.picture"],
-        ..NOTHING
-    },
-    Effect {
-        name: "the layer `first.normal`",
-        asked_by: "`picture.layers`",
-        base: REGULAR,
-        with: &[("picture.layers", "[\"beauty\", \"first.normal\"]")],
-        only: &["gradients"],
-        more: &["bytes.picture"],
-        ..NOTHING
-    },
-    Effect {
-        name: "gradients by regression",
-        asked_by: "`sampling.gradient = \"regression\"`",
-        with: &[("sampling.gradient", "regression")],
-        only: &["bytes.regression"],
-        ..NOTHING
-    },
-    Effect {
-        name: "prefiltered B-splines",
-        asked_by: "`sampling.kernel = \"bspline\"`",
-        base: REGULAR,
+        others ["gradients", "samples", "without_normal"];
+    "silhouettes on shading" by "`[shading.silhouette]`" on REGULAR:
+        without [("shading.model", "toon")], with [("shading.model", "toon"), ("shading.silhouette.offset", "0.45")];
+    "silhouettes and tones of no light" by "`[shading.silhouette]`" on REGULAR:
+        without [("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
+        with [("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"),
+            ("shading.silhouette.offset", "0.45")], only ["gradients"];
+    "view-dependent opacity" by "`shading.view_opacity`" on REGULAR:
+        without [("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]")],
+        with [("shading.model", "toon"), ("shading.toon.tones", "[[0, \"white\"]]"), ("shading.view_opacity", "0.1")],
+        only ["gradients"];
+    "contours of a constant threshold" by "`contours.kappa = \"none\"`" on STYLE: with [("contours.kappa", "none")];
+    "contours with κ along the ray" by "`contours.kappa = \"ray\"`" on STYLE:
+        with [("contours.kappa", "ray")], more ["gradients"];
+    "contours with the exact κ" by "`contours.kappa = \"exact\"`" on STYLE:
+        with [("contours.kappa", "exact")], only ["hessians", "bytes.smoothed"];
+    "contours that fade" by "`contours.fade`" on STYLE:
+        without [("contours.kappa", "none")], with [("contours.kappa", "none"), ("contours.fade", "[0.1, 0.2]")],
+        only ["preprocess.gradients"];
+    "illustrative transparency" by "`transfer.transparency = \"illustrative\"`" on STYLE:
+        with [("transfer.transparency", "illustrative")], only ["preprocess.gradients"];
+    "mip-maps of styles, by the gradient" by "`[style_mipmaps]`" on STYLE:
+        with [("style_mipmaps.curvature_bias", "0")], only ["bytes.style_mipmaps", "preprocess.gradients"];
+    "mip-maps of styles, by curvature too" by "`style_mipmaps.curvature_bias`" on STYLE:
+        without [("style_mipmaps.curvature_bias", "0")], with [("style_mipmaps.curvature_bias", "1")],
+        more ["gradients"];
+    "a function over the gradient's magnitude" by "`transfer.over`" on REGULAR:
+        with [("transfer.nodes", "off"), ("transfer.over", "[\"value\", \"gradient-magnitude\"]"),
+            ("transfer.rows", ROWS)], only ["gradients"];
+    "a function over a distance" by "`transfer.over`" on REGULAR:
+        with [("transfer.nodes", "off"), ("transfer.over", "[\"value\", { distance = [48, 48, 48] }]"),
+            ("transfer.rows", ROWS)];
+    "a function over a curvature" by "`transfer.over`" on REGULAR:
+        with [("transfer.nodes", "off"), ("transfer.over", "[\"value\", \"k1\"]"), ("transfer.rows", ROWS)],
+        only ["gradients", "hessians", "bytes.smoothed"];
+    "a function over labels" by "`volume.labels`" on REGULAR:
+        with [("volume.labels", "{folder}/labels.nrrd"), ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", \"label\"]"), ("transfer.rows", LABEL_ROWS)], only ["bytes.labels"];
+    "a function over the distance to a label" by "`transfer.over`" on REGULAR:
+        with [("volume.labels", "{folder}/labels.nrrd"), ("transfer.nodes", "off"),
+            ("transfer.over", "[\"value\", { distance_to_label = 1 }]"), ("transfer.rows", ROWS)],
+        only ["bytes.labels", "bytes.label distance", "preprocess.label distances"];
+    "a function over a further volume" by "`transfer.over`" on REGULAR:
+        with [("transfer.nodes", "off"), ("transfer.over", "[\"value\", { volume = \"{folder}/labels.nrrd\" }]"),
+            ("transfer.rows", ROWS)], only ["bytes.further volume"];
+    "the layer `normal`" by "`picture.layers`" on REGULAR:
+        with [("picture.layers", "[\"beauty\", \"normal\"]")], only ["gradients"], more ["bytes.picture"];
+    "the layer `curvature`" by "`picture.layers`" on REGULAR:
+        with [("picture.layers", "[\"beauty\", \"curvature\"]")], only ["gradients", "hessians", "bytes.smoothed"],
+        more ["bytes.picture"];
+    "the layer `first.normal`" by "`picture.layers`" on REGULAR:
+        with [("picture.layers", "[\"beauty\", \"first.normal\"]")], only ["gradients"], more ["bytes.picture"];
+    "gradients by regression" by "`sampling.gradient = \"regression\"`" on STYLE:
+        with [("sampling.gradient", "regression")], only ["bytes.regression"];
+    "prefiltered B-splines" by "`sampling.kernel = \"bspline\"`" on REGULAR:
         // Without bricks both kernels have the same samples.
-        without: &[("sampling.skip_empty", "false")],
-        with: &[("sampling.skip_empty", "false"), ("sampling.kernel", "bspline")],
-        only: &["bytes.coefficients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "empty space left out",
-        asked_by: "`sampling.skip_empty`, the default",
-        base: REGULAR,
-        without: &[("sampling.skip_empty", "false")],
-        only: &["bytes.bricks", "bytes.skip"],
-        more: &["rays_skipped"],
-        fewer: &["samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "rays that end where little is left to see",
-        asked_by: "`sampling.stop_below = 0.5`",
-        base: REGULAR,
-        with: &[("sampling.stop_below", "0.5")],
-        fewer: &["samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "four rays a pixel",
-        asked_by: "`picture.samples = 2`",
-        base: REGULAR,
-        with: &[("picture.samples", "2")],
-        more: &["rays", "rays_skipped", "samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "nine rays in a pixel at an edge",
-        asked_by: "`picture.samples = \"auto\"`, the default",
-        base: REGULAR,
-        with: &[("picture.samples", "auto")],
-        only: &["refined_pixels", "bytes.refinement"],
-        more: &["rays", "samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "an opaque iso-surface",
-        asked_by: "`[surface]`",
-        base: REGULAR,
-        with: &[("surface.iso", "120")],
-        only: &["bytes.surface"],
-        fewer: &["samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "an iso-surface that is lit",
-        asked_by: "`surface.look = \"phong\"`",
-        base: REGULAR,
-        without: &[("surface.iso", "120")],
-        with: &[("surface.iso", "120"), ("surface.look", "phong")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "an iso-surface in tones",
-        asked_by: "`surface.look = \"toon\"`",
-        base: REGULAR,
-        without: &[("surface.iso", "120")],
-        with: &[("surface.iso", "120"), ("surface.look", "toon")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "silhouettes of an iso-surface",
-        asked_by: "`[surface.silhouette]`",
-        base: REGULAR,
-        without: &[("surface.iso", "120")],
-        with: &[("surface.iso", "120"), ("surface.silhouette.offset", "0.45")],
-        only: &["gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "dots over the volume",
-        asked_by: "`[stipples]`",
-        base: REGULAR,
-        with: &[("stipples.threshold", "0.3")],
-        only: &["points", "bytes.points", "preprocess.stipple gradients", "preprocess.stipple points"],
-        ..NOTHING
-    },
-    Effect {
-        name: "fewer dots inside",
-        asked_by: "`[stipples.interior]`",
-        base: STIPPLES,
-        with: &[("stipples.interior.te", "0.5")],
-        fewer: &["points"],
-        ..NOTHING
-    },
-    Effect {
-        name: "dots in the shade",
-        asked_by: "`[stipples.lighting]`",
-        base: STIPPLES,
-        with: &[("stipples.lighting.le", "1")],
-        fewer: &["points"],
-        ..NOTHING
-    },
-    Effect {
-        name: "one layer of dots a face",
-        asked_by: "`stipples.thin`",
-        base: STIPPLES,
-        with: &[("stipples.thin", "true")],
-        fewer: &["points", "bytes.points", "preprocess.stipple points"],
-        ..NOTHING
-    },
-    Effect {
-        name: "silhouette curves",
-        asked_by: "`[stipples.curves]`",
-        base: STIPPLES,
-        with: &[("stipples.curves.grad", "0.3")],
-        only: &["preprocess.curve Hessians", "strokes"],
-        more: &["preprocess.stipple gradients"],
-        ..NOTHING
-    },
-    Effect {
-        name: "hidden dots",
-        asked_by: "`stipples.hide_behind`",
-        base: STIPPLES,
-        with: &[("stipples.hide_behind", "120")],
-        only: &["bytes.surface", "preprocess.hidden points"],
-        fewer: &["points"],
-        ..NOTHING
-    },
-    Effect {
-        name: "outlines over the volume",
-        asked_by: "`[outlines]`",
-        base: REGULAR,
-        with: &[("outlines.iso", "120"), ("outlines.min_length", "2 px")],
-        only: &["strokes", "bytes.surface", "preprocess.looks for what hides", "preprocess.outline places"],
-        perhaps: &["preprocess.outline places without a root", "preprocess.short strokes"],
-        ..NOTHING
-    },
-    Effect {
-        name: "creases",
-        asked_by: "`outlines.crease`",
-        base: OUTLINES,
-        with: &[("outlines.crease", "20 deg")],
-        only: &["bytes.smoothed bricks of creases", "preprocess.crease places"],
-        perhaps: &["preprocess.crease places without a crest"],
-        more: &["preprocess.looks for what hides"],
+        without [("sampling.skip_empty", "false")],
+        with [("sampling.skip_empty", "false"), ("sampling.kernel", "bspline")], only ["bytes.coefficients"];
+    "empty space left out" by "`sampling.skip_empty`, the default" on REGULAR:
+        without [("sampling.skip_empty", "false")], only ["bytes.bricks", "bytes.skip"], more ["rays_skipped"],
+        fewer ["samples"];
+    "rays that end where little is left to see" by "`sampling.stop_below = 0.5`" on REGULAR:
+        with [("sampling.stop_below", "0.5")], fewer ["samples"];
+    "four rays a pixel" by "`picture.samples = 2`" on REGULAR:
+        with [("picture.samples", "2")], more ["rays", "rays_skipped", "samples"];
+    "nine rays in a pixel at an edge" by "`picture.samples = \"auto\"`, the default" on REGULAR:
+        with [("picture.samples", "auto")], only ["refined_pixels", "bytes.refinement"], more ["rays", "samples"];
+    "an opaque iso-surface" by "`[surface]`" on REGULAR:
+        with [("surface.iso", "120")], only ["bytes.surface"], fewer ["samples"];
+    "an iso-surface that is lit" by "`surface.look = \"phong\"`" on REGULAR:
+        without [("surface.iso", "120")], with [("surface.iso", "120"), ("surface.look", "phong")], only ["gradients"];
+    "an iso-surface in tones" by "`surface.look = \"toon\"`" on REGULAR:
+        without [("surface.iso", "120")], with [("surface.iso", "120"), ("surface.look", "toon")], only ["gradients"];
+    "silhouettes of an iso-surface" by "`[surface.silhouette]`" on REGULAR:
+        without [("surface.iso", "120")], with [("surface.iso", "120"), ("surface.silhouette.offset", "0.45")],
+        only ["gradients"];
+    "dots over the volume" by "`[stipples]`" on REGULAR:
+        with [("stipples.threshold", "0.3")],
+        only ["points", "bytes.points", "preprocess.stipple gradients", "preprocess.stipple points"];
+    "fewer dots inside" by "`[stipples.interior]`" on STIPPLES:
+        with [("stipples.interior.te", "0.5")], fewer ["points"];
+    "dots in the shade" by "`[stipples.lighting]`" on STIPPLES: with [("stipples.lighting.le", "1")], fewer ["points"];
+    "one layer of dots a face" by "`stipples.thin`" on STIPPLES:
+        with [("stipples.thin", "true")], fewer ["points", "bytes.points", "preprocess.stipple points"];
+    "silhouette curves" by "`[stipples.curves]`" on STIPPLES:
+        with [("stipples.curves.grad", "0.3")], only ["preprocess.curve Hessians", "strokes"],
+        more ["preprocess.stipple gradients"];
+    "hidden dots" by "`stipples.hide_behind`" on STIPPLES:
+        with [("stipples.hide_behind", "120")], only ["bytes.surface", "preprocess.hidden points"], fewer ["points"];
+    "outlines over the volume" by "`[outlines]`" on REGULAR:
+        with [("outlines.iso", "120"), ("outlines.min_length", "2 px")],
+        only ["strokes", "bytes.surface", "preprocess.looks for what hides", "preprocess.outline places"],
+        perhaps ["preprocess.outline places without a root", "preprocess.short strokes"];
+    "creases" by "`outlines.crease`" on OUTLINES:
+        with [("outlines.crease", "20 deg")], only ["bytes.smoothed bricks of creases", "preprocess.crease places"],
+        perhaps ["preprocess.crease places without a crest"], more ["preprocess.looks for what hides"],
         // Creases join outlines to longer ones, and many creases are short.
-        others: &["strokes", "preprocess.short strokes"],
-        ..NOTHING
-    },
-    Effect {
-        name: "strokes over the volume",
-        asked_by: "`[hatching]`",
-        base: REGULAR,
-        with: &[("hatching.iso", "120"), ("hatching.seeds", "dense")],
-        only: &[
-            "strokes",
-            "directions",
-            "bytes.pyramid",
-            "bytes.smoothed bricks",
-            "bytes.surface",
-            "preprocess.looks for what hides",
-            "preprocess.pyramid",
-            "preprocess.seeds",
-        ],
-        perhaps: &[
-            "preprocess.directions at σ = 1",
-            "preprocess.directions at σ = 2",
-            "preprocess.directions at σ = 4",
-            "preprocess.estimates near the border",
-            "preprocess.estimates of umbilics",
-            "preprocess.estimates that disagree",
-            "preprocess.estimates within the noise",
-            "preprocess.seeds beside the surface",
-            "preprocess.seeds of strokes without length",
-            "preprocess.seeds without a direction",
-            "preprocess.seeds without a stroke",
-            "preprocess.steps put back",
-            "preprocess.strokes cut where they dip",
-            "stops.angle",
-            "stops.direction",
-            "stops.turns",
-        ],
-        ..NOTHING
-    },
-    Effect {
-        name: "directions stored at voxels",
-        asked_by: "`hatching.directions.from = \"stored\"`",
-        base: STROKES,
-        with: &[("hatching.directions.from", "stored")],
-        only: &[
-            "bytes.stored directions",
-            "preprocess.directions between stored ones",
-            "preprocess.places without stored directions",
-            "preprocess.stored directions",
-        ],
+        others ["strokes", "preprocess.short strokes"];
+    "strokes over the volume" by "`[hatching]`" on REGULAR:
+        with [("hatching.iso", "120"), ("hatching.seeds", "dense")],
+        only ["strokes", "directions", "bytes.pyramid", "bytes.smoothed bricks", "bytes.surface",
+            "preprocess.looks for what hides", "preprocess.pyramid", "preprocess.seeds"],
+        perhaps ["preprocess.directions at σ = 1", "preprocess.directions at σ = 2", "preprocess.directions at σ = 4",
+            "preprocess.estimates near the border", "preprocess.estimates of umbilics",
+            "preprocess.estimates that disagree", "preprocess.estimates within the noise",
+            "preprocess.seeds beside the surface", "preprocess.seeds of strokes without length",
+            "preprocess.seeds without a direction", "preprocess.seeds without a stroke", "preprocess.steps put back",
+            "preprocess.strokes cut where they dip", "stops.angle", "stops.direction", "stops.turns"];
+    "directions stored at voxels" by "`hatching.directions.from = \"stored\"`" on STROKES:
+        with [("hatching.directions.from", "stored")],
+        only ["bytes.stored directions", "preprocess.directions between stored ones",
+            "preprocess.places without stored directions", "preprocess.stored directions"],
         // A voxel's is computed once, and not counted among those of places.
-        fewer: &["preprocess.directions at σ = 1", "preprocess.directions at σ = 2", "preprocess.directions at σ = 4"],
+        fewer ["preprocess.directions at σ = 1", "preprocess.directions at σ = 2", "preprocess.directions at σ = 4"],
         // Strokes along other directions are other strokes.
-        others: &[
-            "strokes",
-            "directions",
-            "bytes.smoothed bricks",
-            "preprocess.estimates near the border",
-            "preprocess.estimates of umbilics",
-            "preprocess.estimates that disagree",
-            "preprocess.estimates within the noise",
-            "preprocess.looks for what hides",
-            "preprocess.seeds of strokes without length",
-            "preprocess.seeds without a direction",
-            "preprocess.seeds without a stroke",
-            "preprocess.steps put back",
-            "preprocess.strokes cut where they dip",
-            "stops.angle",
-            "stops.direction",
-            "stops.turns",
-        ],
-        ..NOTHING
-    },
-    Effect {
-        name: "strokes that nothing hides",
-        asked_by: "`hatching.hidden = \"drawn\"`",
-        base: STROKES,
-        with: &[("hatching.hidden", "drawn")],
-        more: &["strokes"],
-        fewer: &["bytes.surface", "preprocess.looks for what hides"],
-        ..NOTHING
-    },
-    Effect {
-        name: "gaps where strokes cross",
-        asked_by: "`hatching.gap`",
-        base: STROKES,
-        with: &[("hatching.gap", "2 px")],
-        only: &["preprocess.segments with gaps"],
-        fewer: &["strokes"],
-        ..NOTHING
-    },
-    Effect {
-        name: "strokes inside a translucent volume",
-        asked_by: "`hatching.hidden = \"merged\"`",
-        base: REGULAR,
-        without: &[("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "drawn")],
-        with: &[("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "merged")],
-        only: &["bytes.lines on rays", "preprocess.places of lines on rays"],
+        others ["strokes", "directions", "bytes.smoothed bricks", "preprocess.estimates near the border",
+            "preprocess.estimates of umbilics", "preprocess.estimates that disagree",
+            "preprocess.estimates within the noise", "preprocess.looks for what hides",
+            "preprocess.seeds of strokes without length", "preprocess.seeds without a direction",
+            "preprocess.seeds without a stroke", "preprocess.steps put back", "preprocess.strokes cut where they dip",
+            "stops.angle", "stops.direction", "stops.turns"];
+    "strokes that nothing hides" by "`hatching.hidden = \"drawn\"`" on STROKES:
+        with [("hatching.hidden", "drawn")], more ["strokes"],
+        fewer ["bytes.surface", "preprocess.looks for what hides"];
+    "gaps where strokes cross" by "`hatching.gap`" on STROKES:
+        with [("hatching.gap", "2 px")], only ["preprocess.segments with gaps"], fewer ["strokes"];
+    "strokes inside a translucent volume" by "`hatching.hidden = \"merged\"`" on REGULAR:
+        without [("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "drawn")],
+        with [("hatching.iso", "120"), ("hatching.seeds", "dense"), ("hatching.hidden", "merged")],
+        only ["bytes.lines on rays", "preprocess.places of lines on rays"],
         // A ray ends at an opaque stroke.
-        fewer: &["samples"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a moved object",
-        asked_by: "`[[object]]` with `move`",
-        base: REGULAR,
-        with: &[("object", "[{ value = [[110, 0], [130, 1]], move = [8, 0, 0] }]")],
+        fewer ["samples"];
+    "a moved object" by "`[[object]]` with `move`" on REGULAR:
+        with [("object", "[{ value = [[110, 0], [130, 1]], move = [8, 0, 0] }]")],
         // Its own samples, and rays that its ghost ends elsewhere.
-        more: &["samples"],
-        others: &["rays_skipped"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a halo, seeded by the opacity",
-        asked_by: "`[[halo]]`",
-        base: REGULAR,
-        with: HALO,
-        only: OF_HALOS,
-        ..NOTHING
-    },
-    Effect {
-        name: "four halos in place of one",
-        asked_by: "`[[halo]]`",
-        base: REGULAR,
-        without: HALO,
-        with: &[("halo", "[{ kind = \"occlusive\" }, {}, {}, {}]")],
-        more: &["halo_passes", "bytes.halos"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a halo over groups of four planes",
-        asked_by: "`halo.every`",
-        base: REGULAR,
-        without: HALO,
-        with: &[("halo", "[{ kind = \"occlusive\", every = 4 }]")],
-        fewer: &["halo_passes"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a halo, seeded by curvature",
-        asked_by: "`halo.seed.by`",
-        base: REGULAR,
-        without: HALO,
-        with: &[("halo", "[{ kind = \"occlusive\", seed = { by = \"curvature\" } }]")],
+        more ["samples"], others ["rays_skipped"];
+    "a halo, seeded by the opacity" by "`[[halo]]`" on REGULAR: with HALO, only OF_HALOS;
+    "four halos in place of one" by "`[[halo]]`" on REGULAR:
+        without HALO, with [("halo", "[{ kind = \"occlusive\" }, {}, {}, {}]")], more ["halo_passes", "bytes.halos"];
+    "a halo over groups of four planes" by "`halo.every`" on REGULAR:
+        without HALO, with [("halo", "[{ kind = \"occlusive\", every = 4 }]")], fewer ["halo_passes"];
+    "a halo, seeded by curvature" by "`halo.seed.by`" on REGULAR:
+        without HALO, with [("halo", "[{ kind = \"occlusive\", seed = { by = \"curvature\" } }]")],
         // A second normal on each ray, and seeds on other planes.
-        more: &["gradients"],
-        others: &["halo_passes"],
-        ..NOTHING
-    },
-    Effect {
-        name: "a halo of one label",
-        asked_by: "`halo.seed.labels`",
-        base: REGULAR,
-        without: HALO,
-        with: &[
-            ("volume.labels", "{folder}/labels.nrrd"),
-            ("halo", "[{ kind = \"occlusive\", seed = { value = \"opacity\", labels = [1] } }]"),
-        ],
-        only: &["bytes.labels"],
+        more ["gradients"], others ["halo_passes"];
+    "a halo of one label" by "`halo.seed.labels`" on REGULAR:
+        without HALO,
+        with [("volume.labels", "{folder}/labels.nrrd"),
+            ("halo", "[{ kind = \"occlusive\", seed = { value = \"opacity\", labels = [1] } }]")],
+        only ["bytes.labels"],
         // Seeds outside of the label are looked for no further.
-        fewer: &["gradients"],
-        others: &["halo_samples", "halo_passes", "bytes.seed_rays", "bytes.skip_seeds"],
-        ..NOTHING
-    },
-];
+        fewer ["gradients"], others ["halo_samples", "halo_passes", "bytes.seed_rays", "bytes.skip_seeds"];
+};

@@ -3,8 +3,8 @@
 //! At the border (−3f₀ + 4f₁ − f₂)/2 is the central difference of the line continued by 3f₀ − 3f₁ + f₂. Voxels are
 //! subtracted before they are weighted. Differences of integers are exact, so a constant added to them changes no bit.
 
+use crate::bilinear::bilinear;
 use crate::field::Field;
-use crate::field::kernel::trilinear::bilinear;
 use crate::field::place::CellPosition;
 use crate::field::stencil::{self, Cross};
 use crate::number::{Arithmetic, Real, Vec3};

@@ -9,9 +9,8 @@
 //! There h, the gradient along the index axes, is a linear combination of the voxels. Its weights depend only on which
 //! of the 27 voxels lie in the grid.
 
-use crate::field::Field;
 use crate::field::place::CellPosition;
-use crate::field::stencil::VoxelBlock;
+use crate::field::stencil::{Stencils, VoxelBlock};
 use crate::number::{Real, Vec3};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::space::Grid;
@@ -79,9 +78,9 @@ impl<R: Real> Regression<R> {
     }
 
     /// The interpolated gradient at a place, along the index axes.
-    pub(in crate::field) fn gradient(&self, field: &Field<'_, R>, at: CellPosition<R>) -> Vec3<R> {
-        let dims = field.stencils.dims();
-        let mut block = field.stencils.block::<R>(at.cell);
+    pub(in crate::field) fn gradient(&self, stencils: &Stencils<'_>, at: CellPosition<R>) -> Vec3<R> {
+        let dims = stencils.dims();
+        let mut block = stencils.block::<R>(at.cell);
         // Differences of integers are exact, and differences of a constant are 0.
         let first = block[1][1][1];
         block.iter_mut().flatten().flatten().for_each(|c| *c -= first);
@@ -117,11 +116,11 @@ impl<R: Real> Regression<R> {
     }
 
     /// d at a voxel, as stencils read it.
-    pub(in crate::field) fn value_at_voxel(&self, field: &Field<'_, R>, voxel: [usize; 3]) -> R {
-        let dims = field.stencils.dims();
+    pub(in crate::field) fn value_at_voxel(&self, stencils: &Stencils<'_>, voxel: [usize; 3]) -> R {
+        let dims = stencils.dims();
         let cell: [usize; 3] = std::array::from_fn(|a| voxel[a].min(dims[a].max(2) - 2));
         let [i, j, k]: [usize; 3] = std::array::from_fn(|a| voxel[a] - cell[a]);
-        let block = field.stencils.block::<R>(cell);
+        let block = stencils.block::<R>(cell);
         let first = block[k + 1][j + 1][i + 1];
         let Some([.., d]) = self.case(std::array::from_fn(|a| sides(voxel[a], dims[a]))) else { return first };
         // The weights' sum is 1, so a constant is reproduced exactly.

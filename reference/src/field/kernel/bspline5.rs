@@ -3,8 +3,8 @@
 
 use crate::field::Field;
 use crate::field::coefficients::Coefficients;
+use crate::field::kernel::Interpolant;
 use crate::field::place::CellPosition;
-use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, RowsFn, Taps};
 use crate::number::lanes::widely;
 use crate::number::{Real, Sym3, Vec3};

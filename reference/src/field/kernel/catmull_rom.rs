@@ -1,8 +1,8 @@
 //! Catmull–Rom: interpolates the voxels, C¹, exact for quadratics ([REC-1]).
 
 use crate::field::Field;
+use crate::field::kernel::Interpolant;
 use crate::field::place::CellPosition;
-use crate::field::sampler::Interpolant;
 use crate::field::tensor::{self, Taps};
 use crate::number::{Real, Vec3};
 

@@ -1,8 +1,9 @@
 //! Trilinear interpolation, the papers' kernel ([REC-1]).
 
+use crate::bilinear::bilinear;
 use crate::field::Field;
+use crate::field::kernel::Interpolant;
 use crate::field::place::CellPosition;
-use crate::field::sampler::Interpolant;
 use crate::field::stencil::{self, Corners};
 use crate::number::{Arithmetic, Real, Vec3};
 use drypoint_scene::with_access;
@@ -10,12 +11,6 @@ use drypoint_scene::with_access;
 /// Three nested interpolations, x then y then z: continuous, interpolates the voxels, exact for f = xyz.
 #[derive(Clone, Copy, Debug)]
 pub struct Trilinear;
-
-/// Numbers at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) interpolated along y, then z.
-#[inline(always)]
-pub(in crate::field) fn bilinear<R: Arithmetic>(c: [R; 4], wy: R, wz: R) -> R {
-    R::lerp(R::lerp(c[0], c[1], wy), R::lerp(c[2], c[3], wy), wz)
-}
 
 /// The interpolation itself, along x first.
 #[inline(always)]

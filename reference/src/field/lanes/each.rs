@@ -1,8 +1,8 @@
 //! Fields whose kernel has no implementation in lanes: each position is evaluated on its own, as for a single ray.
 
 use super::{LANES, PlaceColumns, Places, Reader, Seconds, places, splat};
-use crate::field::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Trilinear};
-use crate::field::sampler::{Interpolant, with_kernel};
+use crate::field::kernel::{Bspline, Bspline5, BsplineSmooth, CatmullRom, Interpolant, Trilinear};
+use crate::field::sampler::with_kernel;
 use crate::field::{Field, GradientEstimator, KernelData, Second};
 use crate::number::lanes::widely;
 use crate::number::{Sym3, Vec3};

@@ -11,9 +11,9 @@ mod gradient;
 pub(crate) use self::each::EachReader;
 use self::each::seconds;
 
-use super::kernel::trilinear;
 use super::place::CellPosition;
 use super::{Field, GradientEstimator, KernelData};
+use crate::bilinear::bilinear;
 use crate::number::{Mat3, Sym3, Vec3};
 use drypoint_scene::volume::{Access, Linear, Voxel, Voxels};
 use fearless_simd::prelude::*;
@@ -263,7 +263,7 @@ impl<S: Simd, V: Packed> Reader<S> for LaneReader<'_, '_, S, V> {
             [self.raised(v.pairs([(0, 0), (1, 0)])), self.raised(v.pairs([(0, 1), (1, 1)]))];
         let [wx, wy, wz] = at.w;
         let along_x = [self.between(a, b, wx), self.between(c, d, wx), self.between(e, f, wx), self.between(g, h, wx)];
-        let read = trilinear::bilinear(along_x, wy, wz);
+        let read = bilinear(along_x, wy, wz);
         read * self.field.slope + self.field.intercept
     }
 

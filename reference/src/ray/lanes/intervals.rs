@@ -1,6 +1,6 @@
 //! The depths at which eight rays meet the boxes of visible bricks ([RAY-2]).
 
-use super::Column;
+use super::packet::Column;
 use super::rays::Rays;
 use crate::field::lanes::LANES;
 use crate::number::Vec3;

@@ -1,8 +1,8 @@
 //! Regular functions in lanes: unshaded colours, and Blinn–Phong ([STF-11]).
 
 use super::normal::shading;
+use super::packet::{IN_ORDER, Packet, of_rays, vector};
 use super::ray_lanes::{LaneSamples, RayLanes, ShadeLanes};
-use super::{IN_ORDER, Packet, of_rays, vector};
 use crate::field::lanes::Reader;
 use crate::field::normal::Normal;
 use crate::number::Vec3;

@@ -1,6 +1,6 @@
 //! Rays in lanes, sample by sample, front to back ([RAY-1], [RAY-2], [VAL-3]).
 
-use super::{Column, IN_ORDER, Packet, of_rays, vector};
+use super::packet::{Asked, Column, IN_ORDER, Packet, of_rays, vector};
 use crate::accumulator::Accumulator;
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;
@@ -36,9 +36,6 @@ pub(super) struct Lookahead<S: Simd> {
     /// One bit for each plane on which something may be visible.
     seen: u32,
 }
-
-/// A plane of a packet on which values were expensive, and the lanes for which they were computed.
-pub(super) type Asked = (i64, u64);
 
 impl<S: Simd> Lookahead<S> {
     #[inline(always)]

@@ -2,7 +2,7 @@
 //! [`View::ray`](drypoint_scene::view::View::ray), [`IndexRay::new`](crate::ray::lattice::IndexRay::new) and
 //! [`SampleShader::view_dirs`](crate::ray::sample::SampleShader::view_dirs).
 
-use super::LANES;
+use crate::field::lanes::LANES;
 use crate::number::Vec3;
 use crate::ray::prepared::Prepared;
 use crate::ray::sample::SampleShader;

@@ -6,9 +6,9 @@
 //! Eight rays that all seem to have ended are suspended. They are followed further only if the waiting samples turn out
 //! to be translucent.
 
-use super::ray_lanes::{AHEAD, Asked, Lookahead, RayLanes};
+use super::packet::{Asked, Packet, RAYS, vector};
+use super::ray_lanes::{AHEAD, Lookahead, RayLanes};
 use super::style::{ShadedLanes, StyleShader};
-use super::{Packet, RAYS, vector};
 use crate::accumulator::Accumulator;
 use crate::field::lanes::{LANES, Places, Reader};
 use crate::number::Vec3;

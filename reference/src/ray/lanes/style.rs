@@ -1,8 +1,8 @@
 //! Styles in lanes (Bruckner and Gröller 2007), with the normal of the previous sample on each ray.
 
 use super::normal::shading;
+use super::packet::{Packet, RAYS, Row, of_rays};
 use super::sample_queue::{Batch, Packets};
-use super::{Packet, RAYS, Row, of_rays};
 use crate::field::curvature;
 use crate::field::lanes::{LANES, Reader};
 use crate::field::normal::Normal;

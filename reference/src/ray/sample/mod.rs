@@ -17,4 +17,4 @@ pub(super) use evaluate::{Evaluator, Previous, Sample};
 pub(super) use lit::Lit;
 pub(super) use object::{PreparedObject, turned};
 pub(super) use over_two::OverTwo;
-pub(super) use shader::{SampleShader, Styled};
+pub(super) use shader::{Camera, SampleShader, Styled};

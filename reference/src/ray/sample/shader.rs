@@ -5,15 +5,31 @@ use crate::interactive_volume_illustration::ViewOpacity;
 use crate::number::{Real, Vec3};
 use crate::ray::error::RenderError;
 use crate::ray::opacity::Correction;
-use crate::ray::prepare::Camera;
 use crate::shading::Phong;
 use crate::style_transfer_functions::{Blend2, Contour, Detail, Spheres, StyleIndex, contour, frame, transparency};
 use crate::transfer::{NodePatch, NodePlace};
 use crate::volumeshop::ghosting;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::shot::{Illumination, Lighting, Material, Object, SphereFrame, StyleParams, Transparency};
+use drypoint_scene::shot::{Illumination, Lighting, Material, Object, Shot, SphereFrame, StyleParams, Transparency};
+use drypoint_scene::space::Grid;
 use drypoint_scene::style::Style;
 use drypoint_scene::transfer::Function;
+use drypoint_scene::view::View;
+
+/// The properties of the picture's camera on which materials depend.
+pub(crate) struct Camera<'c> {
+    pub(crate) view: &'c View,
+    pub(crate) rays_across: usize,
+    /// The smallest voxel side of `[volume]`, in world units.
+    pub(crate) voxel: f64,
+}
+
+impl<'c> Camera<'c> {
+    /// The camera of a shot over the grid of `[volume]`.
+    pub(in crate::ray) fn new(shot: &'c Shot, grid: &Grid) -> Self {
+        Self { view: &shot.view, rays_across: shot.rays_across, voxel: grid.voxel() }
+    }
+}
 
 /// A material prepared for samples, which gives visible samples their colour.
 pub(crate) enum SampleShader<R> {
