@@ -4,6 +4,7 @@
 
 mod accumulator;
 mod bilinear;
+mod convex_hull;
 pub mod dot_colors;
 pub mod field;
 pub mod interactive_volume_illustration;

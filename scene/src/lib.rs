@@ -4,6 +4,7 @@
 //! This crate renders nothing: it has no value of the field between voxels and no loop over pixels.
 //! Rules of the specification are cited by their tags, such as [SPACE-4].
 
+pub mod annotations;
 pub mod atomic;
 pub mod backdrop;
 pub mod blue_noise;

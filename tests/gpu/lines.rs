@@ -48,6 +48,8 @@ fn lines_lie_at_their_depths() {
     let styles = "[contours]\nthickness = \"1 voxel\"\nkappa = \"ray\"\n";
     let surface = "[shading]\n[surface]\niso = 150\nlook = \"phong\"\ncolor = \"#d8b4cc\"\n";
     let clip = "[shading]\n[[clip]]\npoint = [11.3, 11.2, 11.1]\nnormal = [0.2, -1, 0.3]\nspace = \"index\"\ncap = \"#ff0000\"\n";
+    let covering = "layers = [\"beauty\", \"part0\", \"part1\", \"part2\"]";
+    let object = "[[object]]\nname = \"a\"\nvalue = [[90, 0], [140, 0.8]]\nmove = [2, 1, 0]\nghosting = 0.5\n";
     let parallel = scene("samples = 1", "").replace("[camera]\n", "[camera]\nprojection = \"orthographic\"\n");
     let in_styles = |text: String| {
         let text = text.replace("kind = \"regular\"\n", "");
@@ -67,6 +69,7 @@ fn lines_lie_at_their_depths() {
         ("lines, surface", scene("samples = 1", surface)),
         ("lines, surface, layers", scene(&format!("samples = 1\n{layers}"), surface)),
         ("lines, cut", scene("samples = 1", clip)),
+        ("lines, coverage", scene(&format!("samples = 1\n{covering}"), object)),
         ("lines, contours", in_styles(scene("samples = 1", styles))),
     ] {
         let Some([double, single]) = differences_among(&text, lines) else { return };

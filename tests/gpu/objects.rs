@@ -200,29 +200,31 @@ fn looks_of_parts() {
     ]);
 }
 
-/// The coverage of objects, of an iso-surface, and beside a mesh, which covers none.
-#[test]
-fn which_object_a_pixel_shows() {
-    let files = Files::new();
+/// Two objects that meet each other and the background, with the coverage of each part.
+pub(crate) fn covering(files: &Files) -> String {
     let near = files.soft("move = [2, -1, 1]\nrotate = { axis = [1, 2, 0.5], angle = 30 }\nghosting = 0.6");
     let meet = |with: &str, more: &str| format!("[[intersection]]\nobject = \"a\"\nwith = \"{with}\"\n{more}\n");
     let both = meet("background", "opacity = \"plus\"\nswap = true")
         + &meet("ghost", "color = \"#ff4010c0\"\nopacity = \"over\"");
-    let all = near.clone() + &both + &files.own("move = [3, 0, 0]");
     let layers = "layers = [\"beauty\", \"part0\", \"part2\", \"part4\", \"part1\", \"part3\"]";
-    let scene = |more: &str| SHELLS.replace("LAYERS", layers) + more;
+    SHELLS.replace("LAYERS", layers) + &near + &both + &files.own("move = [3, 0, 0]")
+}
+
+/// The coverage of objects, of an iso-surface, and beside a mesh, which covers none.
+#[test]
+fn which_object_a_pixel_shows() {
+    let files = Files::new();
+    let all = covering(&files);
     let surface = "[surface]\niso = 110\ncolor = \"#c0c0c0\"\n";
     let meshes = Meshes::new();
     let alone = SHELLS.replace("LAYERS", "layers = [\"part0\"]") + surface;
+    let two_across = |text: String| text.replace("samples = 1\n", "samples = 2\n");
     compare(vec![
-        ("by products, rays at edges", scene(&(PRODUCT.to_owned() + &all)).replace("samples = 1\n", "")),
-        ("before an iso-surface", scene(&(all.clone() + surface))),
-        ("before a mesh", scene(&(all.clone() + &meshes.mesh("flat.ply", "")))),
-        (
-            "with halos, two rays across",
-            scene(&(all + "[[halo]]\nevery = 3\n")).replace("samples = 1\n", "samples = 2\n"),
-        ),
-        ("the volume alone", alone.replace("samples = 1\n", "samples = 2\n")),
+        ("by products, rays at edges", (all.clone() + PRODUCT).replace("samples = 1\n", "")),
+        ("before an iso-surface", all.clone() + surface),
+        ("before a mesh", all.clone() + &meshes.mesh("flat.ply", "")),
+        ("with halos, two rays across", two_across(all + "[[halo]]\nevery = 3\n")),
+        ("the volume alone", two_across(alone)),
     ]);
 }
 

@@ -42,7 +42,11 @@ pub(crate) fn add(shader: &mut Shader, layers: &[LayerKind], shot: &Shot) {
     let ends = layers.iter().map(|layer| if let LayerKind::Part(n) = layer { n + 1 } else { 0 });
     shader.stages.covering = ends.max().unwrap_or(0);
     if shader.stages.covering > 0 {
-        shader.add(&[module!("layers_objects")]);
+        let lines = match shader.stages.begin_part.contains(&"begin_lines") {
+            true => module!("layers_behind_lines"),
+            false => module!("layers_without_lines"),
+        };
+        shader.add(&[lines, module!("layers_objects")]);
         shader.stages.begin_ray.push("begin_coverage");
         shader.stages.end_ray.push("pool_coverage");
         // Objects say what samples show where there are some.

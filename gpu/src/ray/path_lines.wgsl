@@ -19,6 +19,8 @@ struct Fragment {
 // The fragments of the ray that are left.
 var<private> next_line: i32;
 var<private> end_line: i32;
+// 1 - A of the lines before them.
+var<private> through_lines: real;
 
 fn begin_lines(pixel: vec2<i32>, part: i32, across: i32) {
     // The ray of the lines in whose part of the pixel this ray lies.
@@ -27,6 +29,7 @@ fn begin_lines(pixel: vec2<i32>, part: i32, across: i32) {
     let i = ray.y * WIDTH * RAYS_ACROSS + ray.x;
     next_line = i32(line_starts[i]);
     end_line = i32(line_starts[i + 1]);
+    through_lines = 1.0;
 }
 
 fn has_line_before(t: real) -> bool {
@@ -41,6 +44,7 @@ fn meet_line(front: Front) -> Front {
     if (line.opacity >= 1.0) {
         return opaque_behind(front, rgb);
     }
+    through_lines *= 1.0 - line.opacity;
     return over(front, rgb, line.opacity);
 }
 

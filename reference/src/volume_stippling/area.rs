@@ -2,6 +2,7 @@
 //! [STIP-3]).
 
 use super::ridge::across;
+use crate::convex_hull::{area, hull};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::space::Grid;
@@ -113,33 +114,6 @@ pub(super) fn points_each(k_max: f64, area: f64, dims: [usize; 3]) -> usize {
 /// The area of the convex hull.
 fn hull_area(points: Vec<DVec2>) -> f64 {
     area(&hull(points))
-}
-
-/// The convex hull, counterclockwise (Andrew's monotone chain).
-fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let turns_left = |a: DVec2, b: DVec2, c: DVec2| (b - a).perp_dot(c - a) > 0.0;
-    let chain = |points: &mut dyn Iterator<Item = &DVec2>| {
-        let mut chain: Vec<DVec2> = Vec::new();
-        for &p in points {
-            while chain.len() >= 2 && !turns_left(chain[chain.len() - 2], chain[chain.len() - 1], p) {
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        // The last point begins the other chain.
-        chain.pop();
-        chain
-    };
-    let lower = chain(&mut points.iter());
-    let upper = chain(&mut points.iter().rev());
-    [lower, upper].concat()
-}
-
-/// The area of a polygon.
-fn area(polygon: &[DVec2]) -> f64 {
-    let twice: f64 = (0..polygon.len()).map(|i| polygon[i].perp_dot(polygon[(i + 1) % polygon.len()])).sum();
-    (twice / 2.0).abs()
 }
 
 /// The part of a convex polygon inside [−half, half] (Sutherland and Hodgman 1974).

@@ -29,9 +29,9 @@ pub fn mean<R: Real>((c_1, alpha_1): Unshaded<R>, (c_2, alpha_2): Unshaded<R>) -
     (sum > R::ZERO).then(|| std::array::from_fn(|i| (c_1[i] * alpha_1 + c_2[i] * alpha_2) / sum))
 }
 
-/// The result of a function under a dab, at the value at p and the value at T p. With w = a·exp(−½(((v₀ − at₀)/width₀)²
-/// + ((v₁ − at₁)/width₁)²)), a and c_dab the dab's, it is *over* of Porter and Duff (1984): α' = w + α(1 − w), c' =
-/// (w·c_dab + α(1 − w)·c)/α'. If α' is 0, nothing changes.
+/// The result of a function under a dab, at the value at p and the value at T p. It is *over* of Porter and Duff (1984):
+/// α' = w + α(1 − w), c' = (w·c_dab + α(1 − w)·c)/α'. Here a and c_dab are the dab's, and the weight is
+/// w = a·exp(−½(((v₀ − at₀)/width₀)² + ((v₁ − at₁)/width₁)²)). If α' is 0, nothing changes.
 pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [f64; 2]) -> Unshaded<R> {
     let [u, v] = std::array::from_fn(|i| (values[i] - dab.at[i]) / dab.width[i]);
     let [r, g, b, a] = dab.color;

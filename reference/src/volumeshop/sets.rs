@@ -53,9 +53,9 @@ pub fn combined<R: Real>(fuzzy: Fuzzy, sets: impl Iterator<Item = ObjectSet<R>> 
 /// intersections. `met` holds the index and the unshaded opacity of the two objects of each intersection.
 ///
 /// By eq. 4 the colour is Σcμ/Σμ, so a set has the fraction μ/Σμ of the colour, and so of the opacity. An intersection
-/// belongs to both of its objects. The mean of their colours is (α₁c₁ + α₂c₂)/(α₁ + α₂), so the first object has α₁/(α₁
-/// + α₂) of it. This also holds for intersections of other colours. Two transparent objects have half each. In all, w_N
-/// = (μ_N + Σμ_{N∩M}·α_N/(α_N + α_M))/Σμ.
+/// belongs to both of its objects. The mean of their colours is (α₁c₁ + α₂c₂)/(α₁ + α₂), so the first object has the
+/// share α₁/(α₁ + α₂). This also holds for intersections of other colours. Two transparent objects have half each. The
+/// sum is w_N = (μ_N + Σμ_{N∩M}·α_N/(α_N + α_M))/Σμ.
 ///
 /// Opacity is not attributed by the order of the sets in a union, in which no set comes first.
 pub fn fractions<R: Real>(sets: &[ObjectSet<R>], met: &[[(usize, R); 2]], fractions: &mut Vec<f64>) {

@@ -209,6 +209,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "leave_planes",
     "leave_surface",
     "leaves_block",
+    "left_by_lines",
     "light_background",
     "light_part",
     "line_from",

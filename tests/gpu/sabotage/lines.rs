@@ -7,6 +7,7 @@ use crate::lines::{lines, scene};
 fn faults_of_lines_are_noticed() {
     let text = scene("samples = 2", "[shading]\n");
     let surface = scene("samples = 1", "[shading]\n[surface]\niso = 150\nlook = \"phong\"\n");
+    let covering = scene("samples = 1\nlayers = [\"part0\"]", "[shading]\n");
     for (text, old, new) in [
         (&text, "var start = real(sample.k) - 0.5;", "var start = real(sample.k);"),
         (&text, "ratio, t - start);", "ratio, 1.0);"),
@@ -19,6 +20,7 @@ fn faults_of_lines_are_noticed() {
         ),
         (&text, "let ray = pixel * RAYS_ACROSS + within;", "let ray = pixel * RAYS_ACROSS + within.yx;"),
         (&text, "front = meet_line(front);", "next_line++;"),
+        (&covering, "through_lines *= 1.0 - line.opacity;", ""),
         (&surface, "!(fragments[end_line - 1].t < hit)", "!(fragments[end_line - 1].t < hit + 2.0)"),
     ] {
         let Some(difference) = difference_among_with(text, lines, Some((old, new))) else { return };

@@ -2,7 +2,7 @@
 
 use crate::double::load;
 use crate::gpu;
-use crate::objects::{Files, shells};
+use crate::objects::{Files, covering, shells};
 use drypoint::gpu::{GpuJob, Precision};
 use drypoint::scene::picture::Picture;
 
@@ -59,6 +59,17 @@ fn faults_of_objects_are_noticed() {
                 ("    sow_part_1(k, selection_share(2));\n", ""),
                 ("sow_beside_0(k)", "sow_beside_2(k)"),
                 ("clamp(pixel + FUNNEL_MARGIN, vec2(0)", "clamp(pixel, vec2(0)"),
+            ],
+        ),
+        (
+            covering(&files),
+            vec![
+                ("mu * (opacities.x / sum)", "mu * (opacities.y / sum)"),
+                ("mu_of_objects[o] += mu - of_selection;", ""),
+                ("mu_of_objects[i] += sets[i].mu;", ""),
+                ("        mu_of_objects[i] = 0.0;\n", ""),
+                ("    fractions_k = k;\n", ""),
+                ("select(real(0.0), real(1.0), object == 0);\n}", "real(0.0);\n}"),
             ],
         ),
     ];

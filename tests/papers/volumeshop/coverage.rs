@@ -2,6 +2,7 @@
 
 use super::{LIT, SHELLS, drawn, job_of, layer, scene_of};
 use drypoint::scene::counts::Counts;
+use drypoint::scene::fragments::{Fragment, Fragments};
 use drypoint::scene::picture::{LayerKind, Picture};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -114,4 +115,49 @@ fn an_object_of_its_own_pixels_is_a_matte() {
     assert!(of_ghost.iter().all(|part| *part == 0.0) && off(&parts, &opacities) < 1e-12);
     let count = |is: &dyn Fn(f64) -> bool| of_selection.iter().filter(|part| is(**part)).count();
     assert!(count(&|a| a > 0.999) > 4 && count(&|a| a > 0.01 && a < 0.99) > 4, "{of_selection:?}");
+}
+
+/// Objects are white here, meshes and lines black, so ΣpartN is the red of the picture: coverage is what a sample adds to
+/// the picture, before and behind opaque and translucent lines and before a mesh. The rest of A is theirs.
+#[test]
+fn meshes_and_lines_hide_their_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("square.obj");
+    std::fs::write(&mesh, "v 2 14 2\nv 29 18 2\nv 29 18 20\nv 2 14 20\nf 1 2 3 4\n").unwrap();
+    let white =
+        "nodes = [{ at = 20, color = \"white\", opacity = 0 }, { at = 255, color = \"white\", opacity = 0.4 }]\n";
+    let objects = format!(
+        "[transfer]\nkind = \"regular\"\n{white}[shading]\nambient = 1\ndiffuse = 0\nspecular = 0\n[sampling]\nstop_below = 0\n\
+         [[object]]\nname = \"a\"\nvalue = [[60, 0], [120, 0.9]]\nmove = [3, -2, 1]\nghosting = 0.6\n\
+         [[intersection]]\nobject = \"a\"\nopacity = \"plus\"\n"
+    );
+    let square = format!("[[mesh]]\nfile = {:?}\ncolor = \"black\"\n", mesh.display().to_string());
+    for (across, more, has_lines) in [(1, &square, false), (1, &String::new(), true), (2, &square, true)] {
+        let layers = format!("samples = {across}\nlayers = [\"beauty\", \"part0\", \"part1\", \"part2\"]\n");
+        let job = job_of(&scene_of(SHELLS, &(objects.clone() + more)).replace("samples = 1\n", &layers));
+        let view = job.shot().unwrap().view;
+        let depths = job.volume.grid().world_corners().map(|corner| -view.to_eye(corner).z);
+        let [near, far] = depths.iter().fold([f64::INFINITY, 0.0f64], |[a, b], d| [a.min(*d), b.max(*d)]);
+        // Of four rays one has no line; the others have one, two or three, of which every fifth is opaque.
+        let rays = view.size[0] * view.size[1] * across * across;
+        let line = |i: usize| {
+            let depth = near + (far - near) * ((i * 37 % 101) as f64 / 101.0);
+            (i * 7 % (rays / 4 * 3), Fragment { depth, rgb: [0.0; 3], opacity: [0.3, 0.6, 0.1, 0.8, 1.0][i % 5] })
+        };
+        let lines: Vec<_> = (0..rays * 3 / 2).map(line).collect();
+        let lines = has_lines.then(|| Fragments::new(view.size, across, &lines));
+        let drawn = [false, true].map(|by_planes| {
+            let mut renderer = job.renderer().unwrap();
+            renderer.merge(lines.clone());
+            if by_planes { renderer.plane_by_plane() } else { renderer.ray_by_ray() }.again(&|_| ()).0
+        });
+        assert_eq!(drawn[0], drawn[1]);
+        let beauty = layer(&drawn[0], LayerKind::Beauty);
+        let parts: Vec<_> = (0..3).map(|i| layer(&drawn[0], LayerKind::Part(i))[0].clone()).collect();
+        assert!(off(&parts, &beauty[0]) < 1e-12, "{more}: {:e}", off(&parts, &beauty[0]));
+        let sum = |numbers: &[f64]| numbers.iter().sum::<f64>();
+        let sums: Vec<f64> = parts.iter().map(|part| sum(part)).collect();
+        let [red, opacity] = [0, 3].map(|channel| sum(&beauty[channel]));
+        assert!(sums.iter().all(|part| *part > 1.0) && opacity > red + 1.0, "{sums:?} {red} {opacity}");
+    }
 }

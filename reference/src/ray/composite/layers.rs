@@ -36,7 +36,7 @@ pub(crate) struct Sums {
     normal: [f64; 3],
     gradient: [f64; 3],
     curvature: [f64; 3],
-    /// Σw·w_N of each object that layers show. Missing entries are 0.
+    /// Σw·w_N of each object that layers show, times 1 − A of the lines before. Missing entries are 0.
     coverage: Vec<f64>,
 }
 
@@ -56,7 +56,8 @@ impl Sums {
         }
     }
 
-    /// Adds a sample with α > 0. `opacity` is A with this sample included. `fractions` are the w_N of the sample.
+    /// Adds a sample with α > 0. `opacity` is A with this sample included. `fractions` are the w_N of the sample,
+    /// times 1 − A of the lines before it.
     pub(crate) fn add(&mut self, sample: &LayerSample, opacity: f64, fractions: impl ExactSizeIterator<Item = f64>) {
         self.weight += sample.weight;
         self.first.get_or_insert(*sample);

@@ -38,6 +38,8 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     pub(crate) front: Front<R>,
     /// A of the samples alone, without lines and glows. Layers use it.
     of_samples: R,
+    /// 1 − A of the lines alone. Lines belong to no object, and hide what is behind them.
+    through_lines: R,
     /// Sums for the layers; none before the first sample with an opacity.
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
@@ -69,6 +71,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             before_shares: Previous::None,
             front: Front { accumulator: Accumulator::empty(R::ZERO), corrected: [R::ZERO; 2] },
             of_samples: R::ZERO,
+            through_lines: R::ONE,
             sums: None,
             samples: 0,
             objects: None,
@@ -142,6 +145,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             return false;
         }
         self.front.accumulator.over(rgb, alpha);
+        self.through_lines *= R::ONE - alpha;
         self.is_open()
     }
 
@@ -443,7 +447,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     }
 
     /// Adds a value at a depth to the layers, weighted by its α(Δ). A is here the opacity of the samples alone
-    /// ([IO-6]). `fractions` are those of the background and of the objects.
+    /// ([IO-6]). `fractions` are those of the background and of the objects, whose coverage is what lines leave of it.
     fn add_to_layers(&mut self, alpha: R, depth: f64, value: f64, attributes: &SampleAttributes<R>, fractions: &[f64]) {
         let w = (R::ONE - self.of_samples) * alpha;
         self.of_samples = if alpha < R::ONE { self.of_samples + w } else { R::ONE };
@@ -455,7 +459,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             gradient: attributes.gradient.to_glam().to_array(),
             curvature: [attributes.principal[0], attributes.principal[1], attributes.kappa].map(Real::to_f64),
         };
-        let fractions = fractions.iter().copied().take(self.prepared.covering);
+        let through = self.through_lines.to_f64();
+        let fractions = fractions.iter().take(self.prepared.covering).map(|fraction| through * fraction);
         self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, self.of_samples.to_f64(), fractions);
     }
 }

@@ -1,0 +1,6 @@
+// No lines lie before samples.
+// Twin: reference/src/ray/composite/layers.rs
+
+fn left_by_lines() -> real {
+    return 1.0;
+}
