@@ -38,8 +38,8 @@ pub(crate) struct RayState<'p, 'v, R: Real, S> {
     pub(crate) front: Front<R>,
     /// A of the samples alone, without lines and glows. Layers use it.
     of_samples: R,
-    /// 1 − A of the lines alone. Lines belong to no object, and hide what is behind them.
-    through_lines: R,
+    /// A of the lines alone. Lines belong to no object, and hide what is behind them.
+    of_lines: R,
     /// Sums for the layers; none before the first sample with an opacity.
     sums: Option<Box<Sums>>,
     /// Samples evaluated.
@@ -71,7 +71,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             before_shares: Previous::None,
             front: Front { accumulator: Accumulator::empty(R::ZERO), corrected: [R::ZERO; 2] },
             of_samples: R::ZERO,
-            through_lines: R::ONE,
+            of_lines: R::ZERO,
             sums: None,
             samples: 0,
             objects: None,
@@ -145,7 +145,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             return false;
         }
         self.front.accumulator.over(rgb, alpha);
-        self.through_lines *= R::ONE - alpha;
+        self.of_lines = self.of_lines.laid_before(alpha).1;
         self.is_open()
     }
 
@@ -459,7 +459,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
             gradient: attributes.gradient.to_glam().to_array(),
             curvature: [attributes.principal[0], attributes.principal[1], attributes.kappa].map(Real::to_f64),
         };
-        let through = self.through_lines.to_f64();
+        let through = 1.0 - self.of_lines.to_f64();
         let fractions = fractions.iter().take(self.prepared.covering).map(|fraction| through * fraction);
         self.sums.get_or_insert_with(|| Box::new(Sums::new())).add(&sample, self.of_samples.to_f64(), fractions);
     }
