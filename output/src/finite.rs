@@ -11,7 +11,7 @@ pub(crate) fn check_finite(marks: &Marks) -> Result<(), OutputError> {
         return refuse("the page".into());
     }
     for layer in &marks.layers {
-        let Layer { pen, dots, lines } = layer;
+        let Layer { pen, dots, lines, .. } = layer;
         if !(pen.width.is_finite() && pen.color.iter().all(|c| c.is_finite())) {
             return refuse(format!("the pen {:?}", pen.name));
         }

@@ -75,12 +75,12 @@ mod tests {
             color: None,
         };
         let layer = |pen: &Pen| Layer {
-            pen: pen.clone(),
             dots: (0..50).map(|n| dot(f64::from(n) + pen.number as f64)).collect(),
             lines: vec![
                 Polyline { vertices: [0.0, 1.0, 2.0].map(vertex).to_vec(), closed: false },
                 Polyline { vertices: [3.0, 4.0, 5.0, 6.0].map(vertex).to_vec(), closed: true },
             ],
+            ..Layer::new(pen.clone())
         };
         let mut marks = Marks { page, layers: pens.iter().map(layer).collect() };
         marks.round();

@@ -76,12 +76,12 @@ mod tests {
             color: None,
         };
         let layer = Layer {
-            pen: Pen { number: 1, name: String::new(), width: 0.2, color: [0.0; 4] },
             dots: vec![Dot { at: DVec2::new(3.0, 4.0), world: DVec3::ZERO, radius: 0.1, opacity: 1.0 }],
             lines: vec![
                 Polyline { vertices: vec![vertex(3.0, 5.0), vertex(3.0, 7.0)], closed: false },
                 Polyline { vertices: vec![vertex(6.0, 11.0), vertex(9.0, 11.0), vertex(9.0, 15.0)], closed: true },
             ],
+            ..Layer::new(Pen { number: 1, name: String::new(), width: 0.2, color: [0.0; 4] })
         };
         // Up: 5 to the dot, 1 to the first line, 5 to the ring. Down: 2, and a ring of 3 + 4 + 5.
         let travel = Travel::of(&layer, &Speed { down: 2.0, up: 11.0, touch: 0.5 });

@@ -291,12 +291,12 @@ mod tests {
         };
         let dot = |x: f64, opacity: f64| Dot { at: DVec2::new(x, 2.0), world: DVec3::ZERO, radius: 0.15, opacity };
         let black = Layer {
-            pen: Pen { number: 1, name: "schwarz ß".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] },
             dots: vec![dot(1.0, 1.0), dot(2.5, 1.0), dot(3.0, 0.5)],
             lines: vec![Polyline {
                 vertices: vec![vertex(4.0, 4.0), vertex(5.0, 3.0), vertex(6.5, 4.0)],
                 closed: true,
             }],
+            ..Layer::new(Pen { number: 1, name: "schwarz ß".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] })
         };
         Marks { page: Page::in_millimetres(DVec2::new(20.0, 10.0), 2.0, 300.0), layers: vec![black] }
     }

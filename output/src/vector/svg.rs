@@ -314,12 +314,12 @@ mod tests {
         };
         let pen = |number, name: &str, width, color| Pen { number, name: name.into(), width, color };
         let black = Layer {
-            pen: pen(1, "black", 0.3, [0.0, 0.0, 0.0, 1.0]),
             dots: vec![dot(1.0, 2.0, 0.15, 1.0), dot(2.5, 1.999, 0.15, 1.0), dot(3.0, 3.0, 0.1, 0.5)],
             lines: vec![
                 Polyline { vertices: vec![vertex(4.0, 4.0), vertex(5.0, 3.0), vertex(6.5, 4.0)], closed: false },
                 Polyline { vertices: vec![vertex(1.0, 8.0), vertex(2.0, 8.0), vertex(2.0, 9.0)], closed: true },
             ],
+            ..Layer::new(pen(1, "black", 0.3, [0.0, 0.0, 0.0, 1.0]))
         };
         let red = Layer::new(pen(2, "<red> & \"co\"", 0.5, [1.0, 0.0, 0.0, 0.5]));
         Marks { page: Page::in_millimetres(DVec2::new(20.0, 10.0), 2.0, 300.0), layers: vec![black, red] }

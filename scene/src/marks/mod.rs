@@ -1,5 +1,5 @@
-//! Points and lines on a page, as plain data ([STIP-16], [IO-7]). Stippling and hatching make them; PNG, SVG, PDF and
-//! lists show them with the same geometry.
+//! Dots, lines, areas and text on a page, as plain data ([STIP-16], [IO-7]). Stippling, hatching and annotations make
+//! them; PNG, SVG and PDF show them with the same geometry. Lists hold dots or lines.
 //!
 //! **Space.** The page has its origin in the upper left corner, x to the right, y down. Every length on it is in
 //! millimetres, also if a scene counts in pixels. `picture.dpi` converts between the two, and [`Page::unit`] is the
@@ -10,8 +10,10 @@
 //! vertices. No writer rounds any further.
 //!
 //! **Order.** A layer has one pen, hence one colour, so the order of its marks cannot be seen. Lines whose vertices
-//! have colours are the exception: they are drawn in their order, after the others. Layers are drawn in their order.
+//! have colours are the exception: they are drawn in their order, after the others. A layer's areas lie under its lines and
+//! dots, and its text above them. Layers are drawn in their order.
 
+mod area;
 mod dot;
 mod fewer;
 pub mod frame;
@@ -21,12 +23,15 @@ mod page;
 mod pen;
 mod polyline;
 mod round;
+mod text;
 
+pub use area::Area;
 pub use dot::Dot;
 pub use page::{INCH, Page, PageUnit};
 pub use pen::Pen;
 pub use polyline::{Piece, Polyline, Vertex, color_between};
 pub use round::on_step;
+pub use text::Text;
 
 /// The numbers of dots and lines in layers.
 pub fn mark_counts(layers: &[Layer]) -> [usize; 2] {
@@ -52,11 +57,15 @@ pub struct Layer {
     pub dots: Vec<Dot>,
     /// The lines.
     pub lines: Vec<Polyline>,
+    /// The areas.
+    pub areas: Vec<Area>,
+    /// The text.
+    pub texts: Vec<Text>,
 }
 
 impl Layer {
     /// A pen that has drawn nothing yet.
     pub fn new(pen: Pen) -> Self {
-        Self { pen, dots: Vec::new(), lines: Vec::new() }
+        Self { pen, dots: Vec::new(), lines: Vec::new(), areas: Vec::new(), texts: Vec::new() }
     }
 }
