@@ -43,7 +43,7 @@ fn marks() -> &'static Marks {
 }
 
 fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> VectorPage<'a> {
-    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
+    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, outlined: false, provenance }
 }
 
 #[divan::bench(sample_count = 10)]

@@ -3,15 +3,17 @@
 mod frame_writer;
 
 use crate::Failure;
+use crate::annotating::Annotating;
 use crate::backend::frames;
 use crate::frames::Frames;
 use crate::gpu::Gpu;
-use crate::job::{Job, RenderTarget, provenance};
-use crate::marking::{MarkFrames, Marking};
+use crate::job::{Job, RenderTarget, provenance, render_failure};
+use crate::marking::{MarkFrames, Marking, add};
 use drypoint_output::paint::fragments;
+use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
-use drypoint_scene::marks::{Marks, mark_counts};
+use drypoint_scene::marks::{Marks, Page, mark_counts};
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::Shot;
@@ -31,6 +33,9 @@ pub struct Drawing<'a> {
     shot: Option<Shot>,
     renderer: Option<Box<dyn Frames + 'a>>,
     marks: Option<MarkFrames<'a>>,
+    annotations: Option<Annotating<'a>>,
+    /// The reference's renderer for annotations that the volume may hide, if other frames draw the volume.
+    sight: Option<Renderer<'a>>,
 }
 
 /// Contents of a written file, and notes about them.
@@ -52,6 +57,8 @@ pub struct Frame {
     pub marks: Option<Marks>,
     /// Number of lines inside the picture.
     pub inside: usize,
+    /// Annotations that are left out, a sentence each.
+    pub notes: Vec<String>,
 }
 
 impl<'a> Drawing<'a> {
@@ -95,7 +102,11 @@ impl<'a> Drawing<'a> {
         let marks = marking.frames(counts);
         let (first, orbit) = (job.view()?, job.scene.orbit);
         let shot = orbit.filter(|_| renderer.is_some()).map(|_| job.shot()).transpose()?;
-        Ok(Self { job, first, orbit, shot, renderer, marks })
+        let annotations = Annotating::new(job);
+        let asks_rays = annotations.is_some() && job.scene.annotations.asks_rays();
+        let is_on_card = renderer.as_ref().is_some_and(|renderer| renderer.reference().is_none());
+        let sight = (asks_rays && is_on_card).then(|| job.renderer()).transpose()?;
+        Ok(Self { job, first, orbit, shot, renderer, marks, annotations, sight })
     }
 
     /// Returns the number of frames: those of `[orbit]`, or one.
@@ -158,7 +169,11 @@ impl<'a> Drawing<'a> {
         let picture = match &mut self.renderer {
             Some(renderer) => {
                 if let Some(shot) = &self.shot {
-                    renderer.turn(&shot.seen_from(view))?;
+                    let shot = shot.seen_from(view.clone());
+                    renderer.turn(&shot)?;
+                    if let Some(sight) = &mut self.sight {
+                        sight.turn(&shot).map_err(|error| render_failure(&error, scene))?;
+                    }
                 }
                 let start = Instant::now();
                 let Some((picture, own)) = renderer.frame_until(progress, stop)? else { return Ok(None) };
@@ -168,7 +183,18 @@ impl<'a> Drawing<'a> {
             }
             None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
-        Ok(Some((Frame { number: frame, picture, marks, inside }, counts)))
+        // Annotations over both.
+        let mut notes = Vec::new();
+        if let Some(annotations) = &mut self.annotations {
+            let start = Instant::now();
+            let of_frames = self.renderer.as_ref().and_then(|renderer| renderer.reference());
+            let drawn = annotations.draw(&view, of_frames.or(self.sight.as_ref()))?;
+            let marks = marks.get_or_insert_with(|| Marks { page: Page::of(scene), layers: Vec::new() });
+            drawn.layers.into_iter().for_each(|layer| add(&mut marks.layers, layer));
+            notes = drawn.notes;
+            counts.seconds.insert("annotations".into(), start.elapsed().as_secs_f64());
+        }
+        Ok(Some((Frame { number: frame, picture, marks, inside, notes }, counts)))
     }
 }
 
@@ -205,7 +231,7 @@ impl Frame {
 /// Same errors as [`Frame::write`].
 pub fn write_page(marks: Marks, scene: &Scene, target: RenderTarget, path: &Path) -> Result<WriteReport, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
-    let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0 };
+    let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0, notes: Vec::new() };
     FrameWriter { scene, target, provenance }.write(frame, path)
 }
 

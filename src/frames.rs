@@ -33,6 +33,11 @@ pub trait Frames {
     /// Returns about how many samples a frame has without skipping.
     fn samples(&self) -> f64;
 
+    /// Returns the reference's renderer at the current camera, if it draws the frames.
+    fn reference(&self) -> Option<&Renderer<'_>> {
+        None
+    }
+
     /// Returns n of the n×n rays of a pixel that is not refined.
     fn rays_across(&self) -> usize;
 
@@ -93,6 +98,10 @@ impl<'a> ReferenceFrames<'a> {
 }
 
 impl Frames for ReferenceFrames<'_> {
+    fn reference(&self) -> Option<&Renderer<'_>> {
+        Some(&self.renderer)
+    }
+
     fn samples(&self) -> f64 {
         self.renderer.samples()
     }

@@ -46,6 +46,7 @@ use drypoint_reference::suggest;
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::inputs::Inputs;
 use drypoint_scene::marks::{Page, Pen};
 use drypoint_scene::mesh::TriangleMesh;
@@ -54,14 +55,17 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
-use drypoint_scene::tables::{Background, Ids, RaysPerPixel, Scene, StepAlong, VolumeSource, VolumeTable};
+use drypoint_scene::tables::{
+    Background, Ids, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeSource, VolumeTable,
+};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
-use drypoint_scene::volume::labels::LabelNames;
+use drypoint_scene::volume::labels::{LabelNames, LabelVolume};
 use failures::view_failure;
 pub(crate) use failures::{render_failure, shot_failure};
 use iso::find_iso_values;
+pub(crate) use load::known_label;
 use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
 pub use painting::Painting;
@@ -97,6 +101,8 @@ pub struct Job {
     /// The premultiplied picture behind the volume, if the scene has one.
     pub(crate) background: Option<Vec<Rgba>>,
     pub(crate) objects: Objects,
+    /// The names of the labels of `[volume]`, if annotations ask for them.
+    pub(crate) label_names: LabelNames,
 }
 
 /// A job's scene with other settings of knobs, and its plan.
@@ -196,8 +202,24 @@ impl Job {
                 Arc::new(parts::isolate(&scene, assets.function.as_deref(), volume, &mut counts)?)
             }
         };
-        let objects = Objects::default();
-        let mut job = Self { scene, plan, volume, counts, target, source, view, assets, meshes, background, objects };
+        let (objects, label_names) = (Objects::default(), LabelNames::default());
+        let mut job = Self {
+            scene,
+            plan,
+            volume,
+            counts,
+            target,
+            source,
+            view,
+            assets,
+            meshes,
+            background,
+            objects,
+            label_names,
+        };
+        if job.scene.annotations.asks_labels() && job.plan.has_pass(Pass::Annotations) {
+            job.label_names = job.load_labels()?;
+        }
         if job.draws_volume() && !job.scene.objects.is_empty() {
             job.objects = Objects::load(&job, &given)?;
             job.plan.warnings.extend(job.objects.warnings(&job.scene));
@@ -251,6 +273,23 @@ impl Job {
     pub fn node_values(&self) -> Vec<NodesPlan> {
         let own = values_of_nodes(&self.scene, &self.volume, "transfer.unit".into(), None);
         own.into_iter().chain(self.objects.node_values(&self.scene)).collect()
+    }
+
+    /// Returns the corners of the box of a part in world space, x fastest: of the volume, of an object's selection where
+    /// it is moved, or of its ghost. Returns none for objects if the volume is not drawn.
+    pub(crate) fn corners(&self, part: &PartName) -> Option<[DVec3; 8]> {
+        let (name, role) = match part {
+            PartName::Background => return Some(self.volume.grid().world_corners()),
+            PartName::Selection(name) => (name, Role::Selection),
+            PartName::Ghost(name) => (name, Role::Ghost),
+        };
+        let object = self.scene.objects.iter().position(|object| object.name == *name)?;
+        self.objects.corners(&self.scene.objects[object], object, role)
+    }
+
+    /// Returns the label volume of `[volume]`, if something reads it.
+    pub(crate) fn label_volume(&self) -> Option<&LabelVolume> {
+        self.assets.labels.as_ref()
     }
 
     /// Returns the scene's camera in numbers.

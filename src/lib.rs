@@ -23,6 +23,7 @@
 //!
 //! Every error is a [`Failure`]: what is wrong, where, and what to do.
 
+mod annotating;
 mod backend;
 #[cfg(feature = "command")]
 pub mod command;

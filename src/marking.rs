@@ -99,10 +99,12 @@ impl MarkFrames<'_> {
 }
 
 /// Adds a layer to its pen's layer, or as one of its own under an unused number.
-fn add(layers: &mut Vec<Layer>, mut layer: Layer) {
+pub(crate) fn add(layers: &mut Vec<Layer>, mut layer: Layer) {
     if let Some(same) = layers.iter_mut().find(|other| other.pen == layer.pen) {
         same.dots.append(&mut layer.dots);
         same.lines.append(&mut layer.lines);
+        same.areas.append(&mut layer.areas);
+        same.texts.append(&mut layer.texts);
         return;
     }
     if layers.iter().any(|other| other.pen.number == layer.pen.number) {

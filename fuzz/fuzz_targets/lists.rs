@@ -52,7 +52,7 @@ fn check_list(page: Page, layers: Vec<Layer>) {
     let provenance = Provenance::default();
     let drawn = plan(&marks, &Speed::default());
     for (marks, plotter, beziers) in [(&marks, false, true), (&marks, false, false), (&drawn.marks, true, false)] {
-        let sheet = VectorPage { marks, background: None, picture: None, plotter, beziers, provenance: &provenance };
+        let sheet = VectorPage { marks, background: None, picture: None, plotter, beziers, outlined: false, provenance: &provenance };
         assert!(encode_svg(&sheet).is_ok_and(|file| !file.is_empty()));
         assert!(encode_pdf(&sheet).is_ok_and(|file| !file.is_empty()));
     }

@@ -11,7 +11,7 @@ pub(crate) fn check_finite(marks: &Marks) -> Result<(), OutputError> {
         return refuse("the page".into());
     }
     for layer in &marks.layers {
-        let Layer { pen, dots, lines, .. } = layer;
+        let Layer { pen, dots, lines, areas, texts } = layer;
         if !(pen.width.is_finite() && pen.color.iter().all(|c| c.is_finite())) {
             return refuse(format!("the pen {:?}", pen.name));
         }
@@ -24,10 +24,23 @@ pub(crate) fn check_finite(marks: &Marks) -> Result<(), OutputError> {
             let is_placed = vertex.at.is_finite() && vertex.world.is_finite() && vertex.t.is_finite();
             !(is_placed && is_finite([vertex.radius, vertex.opacity]) && color.iter().all(|c| c.is_finite()))
         });
-        match (dot, vertex) {
-            (Some(dot), _) => return refuse(format!("a dot of the pen {:?} at {}", pen.name, dot.at)),
-            (_, Some(vertex)) => return refuse(format!("a line of the pen {:?} at {}", pen.name, vertex.at)),
-            (None, None) => {}
+        let area = areas.iter().find(|area| {
+            let color = area.color.unwrap_or_default();
+            let is_placed = area.outlines.iter().flatten().all(|at| at.is_finite());
+            !(is_placed && area.opacity.is_finite() && color.iter().all(|c| c.is_finite()))
+        });
+        let text = texts.iter().find(|text| !(text.at.is_finite() && is_finite([text.size, text.opacity])));
+        if let Some(dot) = dot {
+            return refuse(format!("a dot of the pen {:?} at {}", pen.name, dot.at));
+        }
+        if let Some(vertex) = vertex {
+            return refuse(format!("a line of the pen {:?} at {}", pen.name, vertex.at));
+        }
+        if area.is_some() {
+            return refuse(format!("an area of the pen {:?}", pen.name));
+        }
+        if let Some(text) = text {
+            return refuse(format!("the text {:?} of the pen {:?}", text.characters, pen.name));
         }
     }
     Ok(())
@@ -42,12 +55,12 @@ mod tests {
     use crate::vector::pdf::encode_pdf;
     use crate::vector::svg::{Animation, encode_svg};
     use drypoint_scene::glam::{DVec2, DVec3};
-    use drypoint_scene::marks::{Dot, Page, Pen, Polyline, Vertex};
+    use drypoint_scene::marks::{Area, Dot, Page, Pen, Polyline, Text, Vertex};
     use drypoint_scene::picture::Provenance;
     use drypoint_scene::tables::BlendSpace;
     use std::path::Path;
 
-    /// A page with a dot and a line.
+    /// A page with a dot, a line, an area and text.
     fn marks() -> Marks {
         let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
         let dot = Dot { at: DVec2::ONE, world: DVec3::ONE, radius: 0.1, opacity: 1.0 };
@@ -61,7 +74,12 @@ mod tests {
         };
         let line = Polyline { vertices: vec![vertex(1.0), vertex(3.0)], closed: false };
         let page = Page::in_millimetres(DVec2::splat(4.0), 0.0, 25.4);
-        Marks { page, layers: vec![Layer { dots: vec![dot], lines: vec![line], ..Layer::new(pen) }] }
+        let outlines = vec![vec![DVec2::ZERO, DVec2::X, DVec2::Y]];
+        let area = Area { outlines, opacity: 1.0, color: Some([0.5; 3]) };
+        let text = Text { characters: "label".into(), at: DVec2::new(1.0, 3.0), size: 1.0, opacity: 1.0 };
+        let layer =
+            Layer { dots: vec![dot], lines: vec![line], areas: vec![area], texts: vec![text], ..Layer::new(pen) };
+        Marks { page, layers: vec![layer] }
     }
 
     /// What every writer of marks says.
@@ -75,6 +93,7 @@ mod tests {
             picture: None,
             plotter: false,
             beziers: false,
+            outlined: false,
             provenance: &provenance,
         };
         let mut picture = blank(&self::marks().page, None).unwrap();
@@ -95,7 +114,7 @@ mod tests {
     fn no_writer_takes_a_number_that_is_not_finite() {
         assert!(written(&marks()).iter().all(Result::is_ok));
         type Change = fn(&mut Marks, f64);
-        let changes: [(&str, Change); 12] = [
+        let changes: [(&str, Change); 18] = [
             ("the page", |marks, x| marks.page.size.x = x),
             ("the page", |marks, x| marks.page.margin = x),
             ("the pen \"black\"", |marks, x| marks.layers[0].pen.width = x),
@@ -110,6 +129,12 @@ mod tests {
             ("a line of the pen \"black\" at ", |marks, x| {
                 marks.layers[0].lines[0].vertices[1].color = Some([0.0, x, 0.0])
             }),
+            ("an area of the pen \"black\"", |marks, x| marks.layers[0].areas[0].outlines[0][2].x = x),
+            ("an area of the pen \"black\"", |marks, x| marks.layers[0].areas[0].opacity = x),
+            ("an area of the pen \"black\"", |marks, x| marks.layers[0].areas[0].color = Some([x, 0.0, 0.0])),
+            ("the text \"label\" of the pen \"black\"", |marks, x| marks.layers[0].texts[0].at.y = x),
+            ("the text \"label\" of the pen \"black\"", |marks, x| marks.layers[0].texts[0].size = x),
+            ("the text \"label\" of the pen \"black\"", |marks, x| marks.layers[0].texts[0].opacity = x),
         ];
         for (what, change) in changes {
             for x in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {

@@ -7,6 +7,7 @@ mod bilinear;
 mod convex_hull;
 pub mod dot_colors;
 pub mod field;
+pub mod figure;
 pub mod interactive_volume_illustration;
 pub mod labels;
 mod mesh;

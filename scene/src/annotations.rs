@@ -25,6 +25,8 @@ pub struct AnnotatedPage {
     pub outline: Vec<DVec2>,
     /// Lower and upper corner of the rectangle that labels do not leave.
     pub frame: [DVec2; 2],
+    /// Rectangles that labels do not cover, each by its lower and upper corner.
+    pub obstacles: Vec<[DVec2; 2]>,
     /// The largest number of rounds in which conflicts are resolved.
     pub rounds: usize,
     /// o_min: opacity of the leader line of the farthest anchor.
@@ -38,7 +40,7 @@ pub enum Hidden {
     Overlap(usize),
     /// Its leader line crosses this label's leader line, or one of both lines runs through the box of the other label.
     Crossing(usize),
-    /// Its anchor, its box or its leader line leaves the frame.
+    /// Its anchor, its box or its leader line leaves the frame, or its box covers an obstacle.
     OutsideFrame,
     /// One of its numbers is not finite, or its size is negative.
     Invalid,

@@ -166,7 +166,11 @@ impl Grid {
 
     /// The eight corners of the field's box in world space, x fastest.
     pub fn world_corners(&self) -> [DVec3; 8] {
-        let ends = self.index_box();
+        self.corners_of(self.index_box())
+    }
+
+    /// The eight corners in world space of a box in index space, given by its lowest and highest corner, x fastest.
+    pub fn corners_of(&self, ends: [DVec3; 2]) -> [DVec3; 8] {
         std::array::from_fn(|i| self.to_world(DVec3::new(ends[i & 1].x, ends[(i >> 1) & 1].y, ends[(i >> 2) & 1].z)))
     }
 

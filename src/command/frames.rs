@@ -71,7 +71,7 @@ impl FrameFiles {
         let example = || format!("write {stem}_{}.{suffix}", "#".repeat(digits.max(3)));
         match runs[..] {
             [] if animation.is_some() => Ok(Self::Animated(path.into())),
-            [] if Format::of(path) == Some(Format::Svg) && scene.has_marks() => {
+            [] if Format::of(path) == Some(Format::Svg) && scene.draws_on_page() => {
                 if scene.page.as_ref().is_some_and(|page| page.plotter) {
                     let what = format!("a plotter draws one frame a page, and [orbit] has {}", orbit.frames);
                     return refused(what, example());

@@ -176,7 +176,7 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
             scene.picture.layers = vec![LayerKind::Beauty];
         }
         // Dots have the size that the page gives, and would cover a smaller page. Such a page is shown smaller instead.
-        if let Some(side) = over.longer_side.filter(|_| !scene.has_marks()) {
+        if let Some(side) = over.longer_side.filter(|_| !scene.draws_on_page()) {
             let [width, height] = scene.picture.size;
             scene.picture.size = [width, height].map(|n| (n * side).div_ceil(width.max(height)));
         }

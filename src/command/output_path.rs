@@ -116,9 +116,9 @@ impl RenderOutput {
     /// # Errors
     /// Same errors as [`FrameFiles::of`], and a vector file of a scene without points.
     pub(super) fn files(&self, scene: &Scene) -> Result<FrameFiles, Failure> {
-        if matches!(self.format, Format::Svg | Format::Pdf) && !scene.has_marks() {
+        if matches!(self.format, Format::Svg | Format::Pdf) && !scene.draws_on_page() {
             let suffix = self.format.suffix();
-            let what = format!(".{suffix} is for points and lines, and the scene has none");
+            let what = format!(".{suffix} is for points, lines and annotations, and the scene has none");
             return Err(Failure::new(what, self.path.display(), "give a name that ends in .png or .exr"));
         }
         match scene.orbit {

@@ -45,6 +45,6 @@ pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> R
 
 /// Returns marks on their background, in pixels.
 fn painted(job: &Job, marks: &Marks) -> Result<Image, Failure> {
-    let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0 };
+    let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0, notes: Vec::new() };
     Ok(Image::from(&frame.painted(job)?))
 }

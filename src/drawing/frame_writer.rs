@@ -11,7 +11,7 @@ use drypoint_scene::atomic;
 use drypoint_scene::marks::{Marks, Page, Vertex, mark_counts};
 use drypoint_scene::memory;
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::{Orbit, Scene};
+use drypoint_scene::tables::{Orbit, PageText, Scene};
 use std::borrow::Cow;
 use std::io;
 use std::path::Path;
@@ -87,6 +87,7 @@ impl<'a> FrameWriter<'a> {
         .map_err(wrong)?;
         let mut written = planned.map(|planned| planned.written).unwrap_or_default();
         written.marks[1] += frame.inside;
+        written.notes.extend(frame.notes);
         Ok(written)
     }
 
@@ -192,7 +193,15 @@ impl<'a> FrameWriter<'a> {
         // Paper has its own colour, and programs that ignore % in labels would draw around the page.
         let background = background_color(self.scene).filter(|_| !self.plotter());
         let beziers = self.scene.hatching.as_ref().is_some_and(|hatching| hatching.beziers);
-        VectorPage { marks, background, picture, plotter: self.plotter(), beziers, provenance: &self.provenance }
+        VectorPage {
+            marks,
+            background,
+            picture,
+            plotter: self.plotter(),
+            beziers,
+            outlined: self.scene.page.as_ref().is_some_and(|page| page.text == PageText::Outlines),
+            provenance: &self.provenance,
+        }
     }
 
     fn plotter(&self) -> bool {
@@ -236,6 +245,9 @@ fn travel(plan: &plotter::PlotterPlan) -> Vec<String> {
     }
     if plan.plain > 0 {
         notes.push(format!("{} lines lose taper, colour or faintness: the nib draws one width in one ink", plan.plain));
+    }
+    if plan.unfilled > 0 {
+        notes.push(format!("{} areas are drawn as outlines: the nib does not fill them", plan.unfilled));
     }
     notes
 }

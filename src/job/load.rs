@@ -104,7 +104,7 @@ pub(super) fn function_failure(error: &FunctionError, given: &Given, names: &Lab
 }
 
 /// Returns the remedy for a label's name that does not exist.
-pub(super) fn known_label(name: &str, names: &LabelNames) -> String {
+pub(crate) fn known_label(name: &str, names: &LabelNames) -> String {
     match names.nearest(name) {
         Some(nearest) => format!("write {nearest:?}"),
         None if names.iter().next().is_none() => "write an id, or name the labels with volume.label_names".into(),

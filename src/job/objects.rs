@@ -8,6 +8,7 @@ use crate::labels::SceneLabels;
 use crate::{Failure, Failures};
 use drypoint_output::read::read_intersection_picture;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::inputs::Inputs;
 use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::plan::{NodesPlan, Plan};
@@ -121,6 +122,20 @@ impl Objects {
     #[cfg(feature = "gpu")]
     pub(super) fn volumes(&self) -> impl Iterator<Item = &Arc<Volume>> {
         self.parts.iter().map(|part| &part.volume)
+    }
+
+    /// Returns the corners of the box of an object in world space, x fastest: of its ghost, or of its selection where it
+    /// is moved.
+    pub(super) fn corners(&self, table: &ObjectTable, object: usize, role: Role) -> Option<[DVec3; 8]> {
+        let facts = self.facts.get(object)?;
+        let corners = facts.corners();
+        Some(match role {
+            Role::Ghost => corners,
+            Role::Selection => {
+                let motion = table.motion.map(facts.centre());
+                corners.map(|corner| motion.transform_point3(corner))
+            }
+        })
     }
 
     /// Warnings of objects that select nothing.

@@ -194,7 +194,7 @@ fn names_that_do_not_fit_are_refused_before_anything_is_drawn() {
         ),
         (
             "render scene.toml -o turn.svg --set orbit.frames=4",
-            "error: .svg is for points and lines, and the scene has none\n  at: turn.svg\n  try: give a name that ends in .png or .exr\n",
+            "error: .svg is for points, lines and annotations, and the scene has none\n  at: turn.svg\n  try: give a name that ends in .png or .exr\n",
         ),
         (
             "render scene.toml -o turn.gif",

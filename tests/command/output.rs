@@ -217,8 +217,8 @@ fn suffixes_choose_the_format() {
     let (pictures, sheets) =
         ("give a name that ends in .png or .exr", "give a name that ends in .png, .exr, .svg, .pdf, .gif or .apng");
     for (name, what, remedy) in [
-        ("out.svg", ".svg is for points and lines, and the scene has none", pictures),
-        ("out.pdf", ".pdf is for points and lines, and the scene has none", pictures),
+        ("out.svg", ".svg is for points, lines and annotations, and the scene has none", pictures),
+        ("out.pdf", ".pdf is for points, lines and annotations, and the scene has none", pictures),
         ("out.csv", ".csv is for lists of points, which `drypoint points` writes", sheets),
         ("out.jpg", ".jpg is the suffix of no picture format that is written", sheets),
         ("out", "the name has no suffix, which chooses the format of the picture", sheets),

@@ -1,5 +1,6 @@
 //! Sheets of points and lines as other programs see them: SVG by librsvg, PDF by poppler, and both parsed back.
 
+mod annotations;
 mod figures;
 mod numbers;
 mod outside;
@@ -10,4 +11,5 @@ mod poppler;
 mod random;
 mod rsvg;
 mod sample;
+mod text;
 mod vpype;

@@ -49,7 +49,7 @@ pub(crate) fn marks(opaque: bool) -> Marks {
 
 /// The sheet of marks on white paper.
 pub(crate) fn sheet<'a>(marks: &'a Marks, provenance: &'a Provenance) -> VectorPage<'a> {
-    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, provenance }
+    VectorPage { marks, background: None, picture: None, plotter: false, beziers: false, outlined: false, provenance }
 }
 
 /// Circles and waves of radii from 1 to 20 mm, of one width or tapered, in chords that are at most so many mm beside them, on the

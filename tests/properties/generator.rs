@@ -263,8 +263,11 @@ pub(crate) fn camera(r: &mut Random, grid: &Grid) -> Camera {
 /// The paper and the pens of points and lines.
 fn paper(r: &mut Random, scene: &mut Scene) {
     let margin = r.pick(&[Length::Millimetres(0.0), Length::Millimetres(12.5), Length::Pixels(3.0)]);
-    scene.page =
-        r.pick(&[None, Some(PageSettings { margin, plotter: false }), Some(PageSettings { margin, plotter: true })]);
+    scene.page = r.pick(&[
+        None,
+        Some(PageSettings { margin, ..PageSettings::default() }),
+        Some(PageSettings { margin, plotter: true, ..PageSettings::default() }),
+    ]);
     let pen = |name: &str, r: &mut Random| PenSettings {
         name: name.into(),
         width: r.pick(&[Length::Millimetres(0.3), Length::Pixels(2.0)]),

@@ -1,7 +1,8 @@
 //! Fragments of lines on the rays of a picture, which composites them at their depths ([HATCH-14] d).
 
 use super::PageWindow;
-use super::lines::{PixelRect, each_of_joined, goes_on};
+use super::lines::{each_of_joined, goes_on};
+use super::pixel_rect::PixelRect;
 use drypoint_scene::fragments::{Fragment, Fragments};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Marks, Piece, Polyline};

@@ -1,9 +1,11 @@
-//! Painting of marks over a picture ([STIP-16], [VAL-3]). Dots cover pixels by their exact area; lines cover them as
-//! [`raster`](crate::raster) does, in steps of 1/255.
+//! Painting of marks over a picture ([STIP-16], [VAL-3]). Dots cover pixels by their exact area; lines, areas and text
+//! cover them as [`raster`](crate::raster) does, in steps of 1/255.
 
 mod canvas;
+mod fills;
 mod fragments;
 mod lines;
+mod pixel_rect;
 
 use crate::OutputError;
 use crate::disc::{Scratch, cover};
@@ -79,11 +81,11 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
     Ok(Picture { width, height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] })
 }
 
-/// Draws marks over the layer `beauty`, layer by layer: lines first, then dots.
+/// Draws marks over the layer `beauty`, layer by layer: areas first, then lines, dots and text.
 ///
 /// A dot covers the exact share of a pixel; two dots on a pixel add as c + d − cd, as if independent. All opaque lines
-/// of one width are drawn as one outline. A translucent or coloured line is composited by itself. With `blend` =
-/// `srgb`, encoded colours are composited, as in viewers of SVG and PDF.
+/// of one width are drawn as one outline. A translucent or coloured line is composited by itself, as each area
+/// and each line of text is. With `blend` = `srgb`, encoded colours are composited, as in viewers of SVG and PDF.
 ///
 /// # Errors
 /// [`OutputError::Layer`] if the picture has no beauty, or one that does not fit its size; [`OutputError::NotFinite`].
@@ -97,6 +99,7 @@ pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mu
     let mut scratch = Scratch::default();
     for layer in &marks.layers {
         let ink = canvas.ink(layer.pen.color);
+        fills::paint_areas(&layer.areas, window, size, &ink, &mut canvas);
         lines::paint(&layer.lines, window, size, &ink, &mut canvas);
         for dot in &layer.dots {
             let [x, y] = window.place(dot.at);
@@ -104,6 +107,7 @@ pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mu
                 canvas.put(j * size[0] + i, &ink, share * dot.opacity);
             });
         }
+        fills::paint_texts(&layer.texts, window, size, &ink, &mut canvas);
     }
     canvas.finish();
     Ok(())

@@ -3,6 +3,7 @@
 
 mod dot_spacing;
 mod fill;
+mod letters;
 mod order;
 mod travel;
 
@@ -24,6 +25,8 @@ pub struct PlotterPlan {
     pub larger: usize,
     /// Number of lines that lose a taper, a colour or translucency to the nib ([HATCH-21]).
     pub plain: usize,
+    /// Number of areas that are drawn as outlines, without their fill.
+    pub unfilled: usize,
 }
 
 /// Least distance between dots of one pen, in nibs.
@@ -40,10 +43,13 @@ pub fn filling_vertices(marks: &Marks) -> f64 {
 /// A dot up to the nib's size becomes one touch, a larger one a circle or a spiral out to its rim. A pen has one width,
 /// one colour and no opacity. A translucent dot is therefore drawn opaque, and a line once along its middle.
 ///
+/// Text becomes single strokes of the height and width that it has in the font. Areas become their outlines.
+///
 /// If two dots are closer than 0.7 nib, only the first is drawn. The order is never longer than the list's own. Each
 /// layer begins at the page's upper left corner.
 pub fn plan(marks: &Marks, speed: &Speed) -> PlotterPlan {
-    let (mut layers, mut travel, mut dropped, mut larger, mut plain) = (Vec::new(), Vec::new(), 0, 0, 0);
+    let (mut layers, mut travel, mut dropped, mut larger, mut plain, mut unfilled) =
+        (Vec::new(), Vec::new(), 0, 0, 0, 0);
     for layer in &marks.layers {
         let nib = layer.pen.width;
         let kept = dot_spacing::spaced(&layer.dots, CLOSEST * nib);
@@ -64,13 +70,20 @@ pub fn plan(marks: &Marks, speed: &Speed) -> PlotterPlan {
         let lines = || layer.lines.iter().filter(|line| line.vertices.len() > 1);
         plain += lines().filter(|line| !has_one_ink(line)).count();
         drawn.lines.extend(lines().map(|line| thin_line(line, nib)));
+        unfilled += layer.areas.len();
+        drawn.lines.extend(layer.areas.iter().flat_map(|area| letters::outlines(area, nib)));
+        for text in &layer.texts {
+            let (touches, strokes) = letters::letters(text, nib);
+            drawn.dots.extend(touches);
+            drawn.lines.extend(strokes);
+        }
         order::dots(&mut drawn.dots);
         let from = drawn.dots.last().map(|dot| dot.at).unwrap_or_default();
         order::lines(&mut drawn.lines, from);
         travel.push(Travel::of(&drawn, speed));
         layers.push(drawn);
     }
-    PlotterPlan { marks: Marks { page: marks.page, layers }, travel, dropped, larger, plain }
+    PlotterPlan { marks: Marks { page: marks.page, layers }, travel, dropped, larger, plain, unfilled }
 }
 
 /// Whether a line has one width, is opaque and has no colour of its own.
@@ -92,7 +105,7 @@ fn thin_line(line: &Polyline, nib: f64) -> Polyline {
 mod tests {
     use super::*;
     use drypoint_scene::glam::{DVec2, DVec3};
-    use drypoint_scene::marks::{Dot, Page, Pen, Vertex};
+    use drypoint_scene::marks::{Area, Dot, Page, Pen, Text, Vertex};
 
     fn dot(x: f64, y: f64, radius: f64) -> Dot {
         Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius, opacity: 0.5 }
@@ -175,6 +188,21 @@ mod tests {
         lines[1].vertices[2].radius = 0.1;
         lines[2].vertices[0].color = Some([1.0, 0.0, 0.0]);
         assert_eq!(planned(vec![], lines).plain, 2);
+    }
+
+    #[test]
+    fn areas_and_text_become_strokes() {
+        let pen = Pen { number: 1, name: "black".into(), width: 0.3, color: [0.0, 0.0, 0.0, 1.0] };
+        let page = Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0);
+        let corners = [(10.0, 10.0), (30.0, 10.0), (30.0, 20.0)].map(DVec2::from).to_vec();
+        let area = Area { outlines: vec![corners], opacity: 0.5, color: Some([1.0, 0.0, 0.0]) };
+        let text = Text { characters: "HI".into(), at: DVec2::splat(50.0), size: 4.0, opacity: 1.0 };
+        let layer = Layer { areas: vec![area], texts: vec![text], ..Layer::new(pen) };
+        let plan = plan(&Marks { page, layers: vec![layer] }, &Speed::default());
+        let drawn = &plan.marks.layers[0];
+        assert!(drawn.areas.is_empty() && drawn.texts.is_empty() && plan.unfilled == 1);
+        assert_eq!((drawn.lines.iter().filter(|line| line.closed).count(), drawn.lines.len()), (1, 1 + 3 + 1));
+        assert!(drawn.lines.iter().flat_map(|line| &line.vertices).all(|v| v.radius == 0.15 && v.color.is_none()));
     }
 
     #[test]

@@ -1,14 +1,20 @@
-//! Text as single strokes: every letter is a few polylines for a round pen.
+//! Text: filled letters of the bundled [`font`], and single strokes, where every letter is a few polylines for a round
+//! pen.
 //!
-//! The alphabet is our own, made of straight lines and arcs of ellipses. It serves labels of sheets, and plotters,
-//! whose pen draws a letter's middle line. Lengths are in font units: capitals are [`CAP_HEIGHT`] high, y goes up from
-//! the baseline, x goes right from the pen position.
+//! The alphabet of strokes is our own, made of straight lines and arcs of ellipses. It serves labels of sheets, and
+//! plotters, whose pen draws a letter's middle line. Lengths are in font units: capitals are [`CAP_HEIGHT`] high, y
+//! goes up from the baseline, x goes right from the pen position.
 
+mod accents;
 mod alphabet;
+pub(crate) mod contour;
 mod elements;
+pub mod font;
 
-use alphabet::glyph_of;
+use alphabet::{glyph_of, is_known};
 use elements::polyline;
+
+pub(crate) use alphabet::GAP;
 
 /// Height of capitals and digits.
 pub const CAP_HEIGHT: f64 = 20.0;
@@ -28,14 +34,31 @@ pub struct Glyph {
 
 /// Returns the strokes of a character, or an empty box if the alphabet does not have it.
 pub fn glyph(character: char) -> Glyph {
-    let (advance, strokes) = glyph_of(character);
-    Glyph { advance, strokes: strokes.iter().map(|stroke| polyline(stroke)).collect() }
+    let (letter, accent) = accents::parts(character);
+    let (advance, strokes) = glyph_of(letter);
+    let accent = accents::placed(accent, letter, advance - GAP);
+    Glyph { advance, strokes: strokes.iter().map(|stroke| polyline(stroke)).chain(accent).collect() }
+}
+
+/// Returns the characters that the alphabet of strokes lacks, each once, in their order.
+pub fn missing_strokes(text: &str) -> Vec<char> {
+    let mut missing = Vec::new();
+    for character in text.chars().filter(|&c| !c.is_control() && !is_known(accents::parts(c).0)) {
+        if !missing.contains(&character) {
+            missing.push(character);
+        }
+    }
+    missing
 }
 
 /// Returns the width of a line of text in font units, without the space after its last character.
 pub fn width(text: &str) -> f64 {
-    let advances: f64 = text.chars().map(|c| glyph_of(c).0).sum();
-    (advances - alphabet::GAP).max(0.0)
+    (advance(text) - GAP).max(0.0)
+}
+
+/// Returns the width of a line of text in font units, with the space after its last character.
+pub(crate) fn advance(text: &str) -> f64 {
+    text.chars().map(|c| glyph_of(accents::parts(c).0).0).sum()
 }
 
 /// Returns the strokes of a line of text that begins at x = 0 on the baseline y = 0.
@@ -97,6 +120,26 @@ mod tests {
             assert!((top - CAP_HEIGHT).abs() < 0.03, "{c}: {top}");
             assert!(bottom.abs() < 0.03 || c == 'Q', "{c}: {bottom}");
         }
+    }
+
+    /// German, French and Spanish, with their quotation marks.
+    const EUROPEAN: &str = "ÄÖÜäöüßÀÂÇÈÉÊËÎÏÔŒÙÛŸàâçèéêëîïôœùûÿÁÍÓÚÑáíóúñ¿¡«»„“”‘’—·€æÆ";
+
+    #[test]
+    fn european_letters_are_there() {
+        assert_eq!(missing_strokes(EUROPEAN), []);
+        assert_eq!(missing_strokes("a☃\tñ猫☃"), ['☃', '猫']);
+        let all: Vec<char> = EUROPEAN.chars().chain(' '..='~').collect();
+        for (i, &c) in all.iter().enumerate() {
+            assert!(all[..i].iter().all(|&b| glyph(c).strokes != glyph(b).strokes), "{c}");
+            for [x, y] in glyph(c).strokes.into_iter().flatten() {
+                assert!((-3.0..=glyph(c).advance).contains(&x), "{c:?} reaches {x} of {}", glyph(c).advance);
+                assert!((-DESCENT..=CAP_HEIGHT + 7.0).contains(&y), "{c:?} reaches {y}");
+            }
+        }
+        let (plain, accented) = (glyph('e'), glyph('é'));
+        assert_eq!((accented.advance, &accented.strokes[..plain.strokes.len()]), (plain.advance, &plain.strokes[..]));
+        assert_eq!(advance("é"), plain.advance);
     }
 
     #[test]

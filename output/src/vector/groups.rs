@@ -4,9 +4,11 @@
 use super::curves::{PathSegment, curves};
 use super::disjoint_dots::disjoint_sets;
 use crate::grid::micrometres;
+use crate::text::contour::{Contour, ContourSegment};
+use crate::text::font;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{Layer, Piece, Polyline};
+use drypoint_scene::marks::{Area, Layer, Piece, Polyline, Text};
 use std::collections::BTreeMap;
 
 /// A point on the page, in micrometres.
@@ -46,6 +48,21 @@ impl Subpath {
             Some((start, steps)) => Self::Curved(start, steps),
             None => Self::Straight(points.iter().map(|p| p.to_array().map(micrometres)).collect()),
         }
+    }
+
+    /// Returns the path of a glyph's contour, with its curves.
+    fn of_contour(contour: &Contour) -> Self {
+        let place = |p: DVec2| p.to_array().map(micrometres);
+        let segment = |segment: &ContourSegment| match *segment {
+            ContourSegment::Line(to) => PathSegment::Line(place(to)),
+            ContourSegment::Curve(places) => PathSegment::Curve(places.map(place)),
+        };
+        // Closing the path draws its last line.
+        let segments = match contour.segments.split_last() {
+            Some((ContourSegment::Line(_), rest)) => rest,
+            _ => &contour.segments,
+        };
+        Self::Curved(place(contour.start), segments.iter().map(segment).collect())
     }
 
     /// Returns the start point and the segments; none without a point.
@@ -115,6 +132,42 @@ pub(super) fn groups(layer: &Layer, keep: bool, beziers: bool) -> Vec<PathGroup>
         })
         .chain(colored)
         .collect()
+}
+
+/// Returns the groups of a layer's areas, in order. Areas of one opacity and colour that follow each other share a
+/// group. With `beziers`, outlines are smooth between their corners.
+pub(super) fn area_groups(layer: &Layer, beziers: bool) -> Vec<PathGroup> {
+    let ink = layer.pen.color[3];
+    let path = |area: &Area| {
+        let paths = area.outlines.iter().filter(|outline| outline.len() > 2);
+        VectorPath { paths: paths.map(|outline| Subpath::of(outline, true, beziers)).collect(), closed: true }
+    };
+    let same = |a: &Area, b: &Area| (a.opacity, a.color) == (b.opacity, b.color);
+    let group = |areas: &[Area]| PathGroup {
+        width: None,
+        opacity: areas[0].opacity * ink,
+        color: areas[0].color,
+        dots: Vec::new(),
+        lines: areas.iter().map(path).collect(),
+    };
+    layer.areas.chunk_by(same).map(group).collect()
+}
+
+/// Returns the groups of a layer's text as the outlines of its letters, in order. Each line of text is a path.
+pub(super) fn letter_groups(layer: &Layer) -> Vec<PathGroup> {
+    let ink = layer.pen.color[3];
+    let path = |text: &Text| VectorPath {
+        paths: font::contours(text).iter().map(Subpath::of_contour).collect(),
+        closed: true,
+    };
+    let group = |texts: &[Text]| PathGroup {
+        width: None,
+        opacity: texts[0].opacity * ink,
+        color: None,
+        dots: Vec::new(),
+        lines: texts.iter().map(path).collect(),
+    };
+    layer.texts.chunk_by(|a, b| a.opacity == b.opacity).map(group).collect()
 }
 
 /// Sorts dots by rows of a height that keeps the moves short, every second row backwards.
@@ -208,5 +261,49 @@ mod tests {
         let mut opaque = layer(&plan);
         opaque.pen.color[3] = 1.0;
         assert_eq!(groups(&opaque, true, false)[0].dots, [[[9000, 1000], [1000, 5000], [5000, 1000]]]);
+    }
+
+    /// Areas of one colour that follow each other share a group, and an outline without an area is left out.
+    #[test]
+    fn areas_keep_their_order() {
+        let triangle = |x: f64| vec![DVec2::new(x, 0.0), DVec2::new(x + 1.0, 0.0), DVec2::new(x, 1.0)];
+        let area = |x: f64, opacity: f64, red: Option<f64>| Area {
+            outlines: vec![triangle(x), vec![DVec2::ZERO, DVec2::ONE]],
+            opacity,
+            color: red.map(|red| [red, 0.0, 0.0]),
+        };
+        let mut layer = layer(&[]);
+        layer.areas = vec![area(1.0, 0.5, None), area(2.0, 0.5, None), area(3.0, 0.5, Some(1.0)), area(4.0, 0.5, None)];
+        let found = area_groups(&layer, false);
+        let shape: Vec<_> = found.iter().map(|g| (g.width, g.opacity, g.color, g.lines.len())).collect();
+        let red = Some([1.0, 0.0, 0.0]);
+        assert_eq!(shape, [(None, 0.25, None, 2), (None, 0.25, red, 1), (None, 0.25, None, 1)]);
+        assert_eq!(found[1].lines[0].paths.len(), 1);
+        let (start, steps) = found[1].lines[0].paths[0].steps().unwrap();
+        assert_eq!(start, [3000, 0]);
+        assert_eq!(steps.collect::<Vec<_>>(), [PathSegment::Line([4000, 0]), PathSegment::Line([3000, 1000])]);
+    }
+
+    /// The letter l is a rectangle from 176 to 342 and from 0 to 1556 units. The path's end draws its last side.
+    #[test]
+    fn letters_are_paths() {
+        let mut layer = layer(&[]);
+        let text = |characters: &str, opacity: f64| Text {
+            characters: characters.into(),
+            at: DVec2::new(0.0, 2.0),
+            size: 2.048,
+            opacity,
+        };
+        layer.texts = vec![text("l", 1.0), text("ol", 1.0), text("o", 0.5)];
+        let found = letter_groups(&layer);
+        let shape: Vec<_> = found.iter().map(|g| (g.width, g.opacity, g.lines.len())).collect();
+        assert_eq!(shape, [(None, 0.5, 2), (None, 0.25, 1)]);
+        let (start, steps) = found[0].lines[0].paths[0].steps().unwrap();
+        let mut corners: Vec<PagePoint> = steps.map(|step| step.end()).chain([start]).collect();
+        corners.sort_unstable();
+        assert_eq!(corners, [[176, 444], [176, 2000], [342, 444], [342, 2000]]);
+        assert_eq!(found[0].lines[1].paths.len(), 3);
+        let curves = |path: &Subpath| path.steps().unwrap().1.all(|step| matches!(step, PathSegment::Curve(_)));
+        assert!(found[1].lines[0].paths.iter().all(curves));
     }
 }

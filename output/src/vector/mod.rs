@@ -7,7 +7,9 @@ mod disjoint_dots;
 mod fit;
 mod groups;
 pub mod pdf;
+mod pdf_text;
 pub mod svg;
+mod svg_text;
 
 use drypoint_scene::color::Rgba;
 use drypoint_scene::marks::Marks;
@@ -28,6 +30,8 @@ pub struct VectorPage<'a> {
     /// Whether lines and outlines are smooth cubic Béziers through their points ([HATCH-10]). They stay within 0.005 mm
     /// of the curves behind the chords, and corners stay.
     pub beziers: bool,
+    /// Whether text is written as the outlines of its letters. If not, it is text that viewers search and select.
+    pub outlined: bool,
     /// Provenance, written into the file.
     pub provenance: &'a Provenance,
 }

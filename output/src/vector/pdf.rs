@@ -4,13 +4,14 @@
 use super::VectorPage;
 use super::curves::PathSegment;
 use super::decimals::{number, push};
-use super::groups::{PathGroup, Subpath, groups};
+use super::groups::{PathGroup, Subpath, area_groups, groups, letter_groups};
+use super::pdf_text::EmbeddedFont;
 use crate::encode::{quantize, srgb_bytes, straight_srgb};
 use crate::finite::check_finite;
 use crate::layers::{fitting, side};
 use crate::{OutputError, atomic};
 use drypoint_scene::color::Rgba;
-use drypoint_scene::marks::{INCH, Layer};
+use drypoint_scene::marks::{INCH, Layer, Text};
 use drypoint_scene::picture::{LayerKind, Picture};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, TextStr};
@@ -39,6 +40,8 @@ const FIRST: i32 = 8;
 ///
 /// The PDF page has the marks' page size. Dots are strokes of length zero with round ends, as PDF defines them. There
 /// is no date and no random number: equal pages give equal bytes.
+///
+/// Text is in a subset of the bundled font, which the file holds.
 ///
 /// # Errors
 /// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::NotFinite`], [`OutputError::Io`].
@@ -72,6 +75,10 @@ pub fn encode_pdf(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
     for (&layer, label) in layers.iter().zip(&content.labels) {
         pdf.indirect(layer).dict().pair(Name(b"Type"), Name(b"OCG")).pair(Name(b"Name"), TextStr(label));
     }
+    let font = Ref::new(FIRST + content.labels.len() as i32);
+    if let Some(embedded) = &content.font {
+        embedded.write(&mut pdf, font, LEVEL);
+    }
     // The catalog lists the layers and their order.
     let mut catalog = pdf.catalog(CATALOG);
     catalog.pages(PAGES);
@@ -82,7 +89,7 @@ pub fn encode_pdf(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
     shown.finish();
     properties.finish();
     catalog.finish();
-    // The page and its resources: the picture, opacities, layers.
+    // The page and its resources: the picture, the font, opacities, layers.
     pdf.pages(PAGES).kids([PAGE]).count(1);
     let size = sheet.marks.page.size * POINTS;
     let mut page = pdf.page(PAGE);
@@ -90,6 +97,9 @@ pub fn encode_pdf(sheet: &VectorPage) -> Result<Vec<u8>, OutputError> {
     let mut resources = page.resources();
     if sheet.picture.is_some() {
         resources.x_objects().pair(Name(b"P"), IMAGE);
+    }
+    if content.font.is_some() {
+        resources.fonts().pair(Name(b"F"), font);
     }
     let mut states = resources.ext_g_states();
     for (i, &opacity) in content.opacities.iter().enumerate() {
@@ -122,6 +132,8 @@ struct Content {
     labels: Vec<String>,
     /// Opacities of the graphics states, `G0` and on.
     opacities: Vec<f64>,
+    /// The font `F` of the page's text; none without text, or if text is outlines.
+    font: Option<EmbeddedFont>,
 }
 
 impl Content {
@@ -129,7 +141,8 @@ impl Content {
     fn new(sheet: &VectorPage) -> Self {
         let height = number(sheet.marks.page.size.y * POINTS);
         let bytes = format!("{POINTS:.9} 0 0 -{POINTS:.9} 0 {height} cm 1 J 1 j\n");
-        Self { bytes: bytes.into_bytes(), labels: Vec::new(), opacities: Vec::new() }
+        let font = if sheet.outlined { None } else { EmbeddedFont::of(sheet.marks) };
+        Self { bytes: bytes.into_bytes(), labels: Vec::new(), opacities: Vec::new(), font }
     }
 
     /// Wraps drawing in a layer of that label.
@@ -162,10 +175,28 @@ impl Content {
     fn layer(&mut self, layer: &Layer, sheet: &VectorPage) {
         self.within(layer.pen.label(), |content| {
             content.color(layer.pen.color, "RG");
+            for group in area_groups(layer, sheet.beziers) {
+                content.group(&group, layer.pen.color);
+            }
             for group in groups(layer, sheet.plotter, sheet.beziers) {
                 content.group(&group, layer.pen.color);
             }
+            if sheet.outlined {
+                letter_groups(layer).iter().for_each(|group| content.group(group, layer.pen.color));
+            } else {
+                layer.texts.iter().for_each(|text| content.text(text, layer.pen.color));
+            }
         });
+    }
+
+    fn text(&mut self, text: &Text, pen: Rgba) {
+        self.add("q ");
+        self.state(text.opacity * pen[3]);
+        self.color(pen, "rg");
+        if let Some(font) = &self.font {
+            font.show(text, &mut self.bytes);
+        }
+        self.add("Q\n");
     }
 
     fn group(&mut self, group: &PathGroup, pen: Rgba) {
@@ -310,6 +341,7 @@ mod tests {
             picture,
             plotter: false,
             beziers: false,
+            outlined: false,
             provenance: &provenance,
         })
         .unwrap()
@@ -329,6 +361,7 @@ mod tests {
             picture: None,
             plotter: false,
             beziers: false,
+            outlined: false,
             provenance: &provenance,
         };
         let mut content = Content::new(&sheet);

@@ -3,8 +3,8 @@
 
 use super::curves::PathSegment;
 use super::decimals::{number, push_pair};
-use super::groups::{PagePoint, PathGroup, Subpath, VectorPath, groups};
-use super::{VectorPage, base64, decimals};
+use super::groups::{PagePoint, PathGroup, Subpath, VectorPath, area_groups, groups, letter_groups};
+use super::{VectorPage, base64, decimals, svg_text};
 use crate::encode::hex;
 use crate::finite::check_finite;
 use crate::grid::micrometres;
@@ -19,6 +19,8 @@ use std::path::Path;
 /// Dots are strokes of length zero with round ends, many to a path, so that half a million take a few megabytes. On a
 /// plotter's page each dot is an element of its own in drawing order, since plotter programs skip empty strokes inside
 /// a path. Coordinates have steps of 0.001 mm, as marks do. There is no date: equal pages give equal bytes.
+///
+/// Text names the bundled font and the width that it has there. A viewer without that font fits its own to the width.
 ///
 /// # Errors
 /// [`OutputError::Layer`] if the picture has no beauty that fits, [`OutputError::NotFinite`], [`OutputError::Io`].
@@ -167,32 +169,45 @@ fn draw(layer: &Layer, id: &str, sheet: &VectorPage, out: &mut Vec<u8>) {
          stroke-width=\"{width}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
         ),
     );
-    let pen = micrometres(layer.pen.width);
+    for group in area_groups(layer, sheet.beziers) {
+        draw_group(&group, layer, false, out);
+    }
     for group in groups(layer, sheet.plotter, sheet.beziers) {
-        // Marks in the pen's own width, opacity and colour need no group.
-        let plain = group.width == Some(pen) && group.opacity == 1.0 && group.color.is_none();
-        if !plain {
-            let own = group.color.map(|[r, g, b]| hex([r, g, b, 1.0]));
-            match group.width {
-                Some(width) => {
-                    out.extend_from_slice(b"<g stroke-width=\"");
-                    decimals::push(out, width);
-                    let color = own.map(|own| format!(" stroke=\"{own}\"")).unwrap_or_default();
-                    text(out, format_args!("\"{color}{}>\n", opacity("stroke-opacity", group.opacity)));
-                }
-                None => {
-                    let (own, faint) = (own.unwrap_or_else(|| color.clone()), opacity("fill-opacity", group.opacity));
-                    text(out, format_args!("<g fill=\"{own}\" stroke=\"none\"{faint}>\n"));
-                }
-            }
-        }
-        dots(&group, sheet.plotter, out);
-        group.lines.iter().for_each(|line| path(line, out));
-        if !plain {
-            out.extend_from_slice(b"</g>\n");
-        }
+        draw_group(&group, layer, sheet.plotter, out);
+    }
+    if sheet.outlined {
+        letter_groups(layer).iter().for_each(|group| draw_group(group, layer, false, out));
+    } else {
+        svg_text::write_texts(layer, out);
     }
     out.extend_from_slice(b"</g>\n");
+}
+
+fn draw_group(group: &PathGroup, layer: &Layer, plotter: bool, out: &mut Vec<u8>) {
+    // Marks in the pen's own width, opacity and colour need no group.
+    let pen = micrometres(layer.pen.width);
+    let plain = group.width == Some(pen) && group.opacity == 1.0 && group.color.is_none();
+    if !plain {
+        let own = group.color.map(|[r, g, b]| hex([r, g, b, 1.0]));
+        match group.width {
+            Some(width) => {
+                out.extend_from_slice(b"<g stroke-width=\"");
+                decimals::push(out, width);
+                let color = own.map(|own| format!(" stroke=\"{own}\"")).unwrap_or_default();
+                text(out, format_args!("\"{color}{}>\n", opacity("stroke-opacity", group.opacity)));
+            }
+            None => {
+                let own = own.unwrap_or_else(|| hex(layer.pen.color));
+                let faint = opacity("fill-opacity", group.opacity);
+                text(out, format_args!("<g fill=\"{own}\" stroke=\"none\"{faint}>\n"));
+            }
+        }
+    }
+    dots(group, plotter, out);
+    group.lines.iter().for_each(|line| path(line, out));
+    if !plain {
+        out.extend_from_slice(b"</g>\n");
+    }
 }
 
 fn dots(group: &PathGroup, plotter: bool, out: &mut Vec<u8>) {
@@ -265,17 +280,17 @@ fn path(line: &VectorPath, out: &mut Vec<u8>) {
 }
 
 /// Returns the attribute; empty for a value of 1.
-fn opacity(name: &str, value: f64) -> String {
+pub(super) fn opacity(name: &str, value: f64) -> String {
     if value == 1.0 { String::new() } else { format!(" {name}=\"{}\"", number(value)) }
 }
 
-fn text(out: &mut Vec<u8>, said: std::fmt::Arguments) {
+pub(super) fn text(out: &mut Vec<u8>, said: std::fmt::Arguments) {
     // A Vec takes whatever is written to it.
     let _ = out.write_fmt(said);
 }
 
 /// Returns text escaped for XML, in an attribute or between tags. Characters that XML 1.0 does not allow become U+FFFD.
-fn escaped(said: &str) -> String {
+pub(super) fn escaped(said: &str) -> String {
     let mut out = String::with_capacity(said.len());
     for c in said.chars() {
         match c {
@@ -329,7 +344,15 @@ mod tests {
         let provenance =
             Provenance { software: "Drypoint 0.1.0".into(), scene_hash: "00ff".into(), plan: "κ < 1\n\u{1}".into() };
         let marks = marks();
-        let sheet = VectorPage { marks: &marks, background, picture, plotter, beziers: false, provenance: &provenance };
+        let sheet = VectorPage {
+            marks: &marks,
+            background,
+            picture,
+            plotter,
+            beziers: false,
+            outlined: false,
+            provenance: &provenance,
+        };
         String::from_utf8(encode_svg(&sheet).unwrap()).unwrap()
     }
 
@@ -370,6 +393,7 @@ Drypoint plan: κ &lt; 1
             picture: None,
             plotter: false,
             beziers: false,
+            outlined: false,
             provenance: &provenance,
         };
         let frames = |n: usize| {

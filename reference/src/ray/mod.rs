@@ -9,6 +9,7 @@ mod draw;
 mod error;
 mod lanes;
 pub mod lattice;
+mod line_point;
 mod measure;
 mod merged;
 pub mod opacity;
@@ -29,6 +30,7 @@ mod sample;
 mod tile_work;
 
 pub use error::RenderError;
+pub use line_point::LinePoint;
 pub use measure::measure;
 pub use pick::{Picked, VISIBLE};
 pub use prepare::within_planes;

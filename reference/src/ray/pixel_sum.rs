@@ -76,7 +76,7 @@ impl PixelSum {
 
 /// A ray's colour over the background ([IO-6]). With encoded compositing, the ray's colour is encoded. The background's
 /// straight colour is then encoded and premultiplied, and the result is decoded ([VAL-3]).
-fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
+pub(super) fn over([r, g, b, a]: Rgba, behind: Rgba, encode: bool) -> Rgba {
     let add = |behind: Rgba| {
         let mut front = Accumulator { rgb: [r, g, b], opacity: a };
         front.over_premultiplied(behind);

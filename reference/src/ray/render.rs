@@ -5,6 +5,7 @@ use super::draw::{Band, Casting, Drawn, draw, largest_band, rays_of_tiles};
 use super::error::RenderError;
 use super::lanes;
 use super::lattice::samples_in;
+use super::line_point::{LinePoint, line_point};
 use super::merged;
 use super::pick::{Picked, pick};
 use super::prepare::{prepare, turn};
@@ -18,8 +19,10 @@ use crate::labels::Labels;
 use crate::number::Real;
 use crate::with_sampler;
 use drypoint_scene::backdrop::Backdrop;
+use drypoint_scene::color::Rgb;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::inputs::Inputs;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
@@ -268,6 +271,24 @@ impl<'a> Renderer<'a> {
         match &self.ready {
             Ready::F64(p) => pick(p, labels, point),
             Ready::F32(p) => pick(p, labels, point),
+        }
+    }
+
+    /// Returns the look of an opaque line's point at an eye depth, seen at a point of the picture in pixels from the top
+    /// left corner ([VS-8]). Halos and other lines are ignored.
+    pub fn line_point(&self, point: [f64; 2], depth: f64, rgb: Rgb) -> LinePoint {
+        match &self.ready {
+            Ready::F64(p) => line_point(p, point, depth, rgb),
+            Ready::F32(p) => line_point(p, point, depth, rgb),
+        }
+    }
+
+    /// Returns the box of `[volume]` in which something can be seen, in index space, to whole bricks. Returns none if
+    /// empty space is not skipped, or if nothing can be seen.
+    pub fn visible_box(&self) -> Option<[DVec3; 2]> {
+        match &self.ready {
+            Ready::F64(p) => p.skip.as_ref()?.bounds(),
+            Ready::F32(p) => p.skip.as_ref()?.bounds(),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Bruckner and Gröller, VolumeShop: An Interactive System for Direct Volume Illustration, IEEE Visualization 2005.
 
 pub mod annotations;
+pub mod conventions;
 pub mod far_side;
 mod funnel;
 pub mod fuzzy;

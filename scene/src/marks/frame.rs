@@ -1,4 +1,4 @@
-//! Clipping of marks to the frame ([STIP-16]): dots are kept whole or not at all, lines are cut.
+//! Clipping of marks to the frame ([STIP-16]): dots and text are kept whole or not at all, lines and areas are cut.
 
 use super::{Marks, Page, Polyline, Vertex};
 use glam::DVec2;
@@ -7,12 +7,21 @@ impl Marks {
     /// Clips the marks to the frame. A dot stays if all of its disc is inside. A line stays where its middle is at
     /// least half its width inside. A line that leaves and comes back becomes several lines, whose vertices keep their
     /// `t`.
+    ///
+    /// An area stays where it is inside. A line of text stays if its start is inside, even if its end is not, because
+    /// this crate does not know its font.
     pub fn keep_inside(&mut self) {
         let page = self.page;
         for layer in &mut self.layers {
             layer.dots.retain(|dot| inside(&page, dot.at, dot.radius));
             let lines = std::mem::take(&mut layer.lines);
             layer.lines = lines.into_iter().flat_map(|line| cut(&page, line)).collect();
+            for area in &mut layer.areas {
+                area.outlines.iter_mut().for_each(|outline| *outline = clip(&page, std::mem::take(outline)));
+                area.outlines.retain(|outline| outline.len() > 2);
+            }
+            layer.areas.retain(|area| !area.outlines.is_empty());
+            layer.texts.retain(|text| text.at.is_finite() && inside(&page, text.at, 0.0));
         }
     }
 }
@@ -25,6 +34,33 @@ fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
     let near = at - (page.margin + radius - SLACK);
     let far = page.size - (page.margin + radius - SLACK) - at;
     near.min_element() >= 0.0 && far.min_element() >= 0.0
+}
+
+/// Returns an outline without its part outside the frame. An outline that lies inside stays as it is.
+///
+/// Sutherland and Hodgman cut one side of the frame after another. An outline that leaves and comes back stays one,
+/// joined along the frame's edge, which adds no area. Winding numbers inside the frame stay.
+fn clip(page: &Page, mut outline: Vec<DVec2>) -> Vec<DVec2> {
+    let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
+    let sides: [&dyn Fn(DVec2) -> f64; 4] = [&|p| p.x - lo, &|p| p.y - lo, &|p| hi.x - p.x, &|p| hi.y - p.y];
+    for distance in sides {
+        if outline.iter().all(|&p| distance(p) >= 0.0) {
+            continue;
+        }
+        let mut kept = Vec::with_capacity(outline.len() + 2);
+        for (i, &to) in outline.iter().enumerate() {
+            let from = outline[if i == 0 { outline.len() - 1 } else { i - 1 }];
+            let (start, end) = (distance(from), distance(to));
+            if (start >= 0.0) != (end >= 0.0) {
+                kept.push(from.lerp(to, start / (start - end)));
+            }
+            if end >= 0.0 {
+                kept.push(to);
+            }
+        }
+        outline = kept;
+    }
+    outline
 }
 
 /// The parts of a line that lie inside; the line itself if all of it does.
@@ -83,9 +119,10 @@ pub fn clipped(distances: impl IntoIterator<Item = (f64, f64)>) -> Option<[f64; 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Dot, Layer, Pen};
+    use super::super::{Area, Dot, Layer, Pen, Text};
     use super::*;
     use glam::DVec3;
+    use proptest::prelude::*;
 
     /// A page of 100 × 50 mm with margins of 10 mm.
     fn marks() -> Marks {
@@ -153,5 +190,81 @@ mod tests {
         let end = marks.layers[0].lines[0].vertices[1];
         // 90 of the way from 20 to 100: 70/80.
         assert!((end.t - 0.875).abs() < 1e-9 && (end.world.x - 90.0).abs() < 1e-6, "{end:?}");
+    }
+
+    fn area(outlines: &[&[(f64, f64)]]) -> Area {
+        let outline = |places: &&[(f64, f64)]| places.iter().copied().map(DVec2::from).collect();
+        Area { outlines: outlines.iter().map(outline).collect(), opacity: 1.0, color: None }
+    }
+
+    fn kept_areas(areas: &[Area]) -> Vec<Area> {
+        let mut marks = marks();
+        marks.layers[0].areas = areas.to_vec();
+        marks.keep_inside();
+        marks.layers.remove(0).areas
+    }
+
+    /// Half the sum of cross products.
+    fn signed_area(outline: &[DVec2]) -> f64 {
+        outline.iter().zip(outline.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b) / 2.0).sum()
+    }
+
+    #[test]
+    fn an_area_is_cut_at_the_frame() {
+        let inside = area(&[&[(10.0, 10.0), (90.0, 10.0), (90.0, 40.0)], &[(20.0, 15.0), (20.0, 20.0), (25.0, 20.0)]]);
+        let outside = area(&[&[(0.0, 0.0), (9.0, 0.0), (9.0, 50.0)], &[(91.0, 20.0), (95.0, 20.0), (95.0, 30.0)]]);
+        assert_eq!(kept_areas(&[inside.clone(), outside]), [inside]);
+        // The frame is [10, 90] × [10, 40]. A box over its corner keeps 10 × 5 mm, turned as before.
+        let corner = kept_areas(&[area(&[&[(0.0, 0.0), (20.0, 0.0), (20.0, 15.0), (0.0, 15.0)]])]);
+        assert!((signed_area(&corner[0].outlines[0]) - 50.0).abs() < 1e-6, "{corner:?}");
+        // Two teeth of 10 × 10 mm, joined outside; the hole outside is gone.
+        let teeth = [(20.0, 30.0), (30.0, 30.0), (30.0, 45.0), (40.0, 45.0), (40.0, 30.0), (50.0, 30.0), (50.0, 48.0)];
+        let teeth: Vec<_> = teeth.into_iter().chain([(20.0, 48.0)]).collect();
+        let found = kept_areas(&[area(&[&teeth, &[(32.0, 46.0), (32.0, 47.0), (33.0, 47.0)]])]);
+        assert_eq!(found[0].outlines.len(), 1);
+        assert!((signed_area(&found[0].outlines[0]) - 200.0).abs() < 1e-6, "{found:?}");
+    }
+
+    #[test]
+    fn text_stays_if_its_start_is_inside() {
+        let mut marks = marks();
+        let text = |x, y| Text { characters: "label".into(), at: DVec2::new(x, y), size: 3.0, opacity: 1.0 };
+        let stays = [text(10.0, 10.0), text(90.0, 40.0)];
+        let goes = [text(9.999, 20.0), text(20.0, 40.001), text(f64::NAN, 20.0)];
+        marks.layers[0].texts = stays.iter().chain(&goes).cloned().collect();
+        marks.keep_inside();
+        assert_eq!(marks.layers[0].texts, stays);
+    }
+
+    /// Turns of an outline around a point.
+    fn winding(outline: &[DVec2], at: DVec2) -> i32 {
+        let turn = |(a, b): (&DVec2, &DVec2)| {
+            let left = (*b - *a).perp_dot(at - *a) > 0.0;
+            i32::from(a.y <= at.y && b.y > at.y && left) - i32::from(a.y > at.y && b.y <= at.y && !left)
+        };
+        outline.iter().zip(outline.iter().cycle().skip(1)).map(turn).sum()
+    }
+
+    proptest! {
+        /// Points inside the frame keep their winding number, and points outside have none.
+        #[test]
+        fn a_cut_area_keeps_its_winding_numbers(
+            places in prop::collection::vec((-20.0..120.0, -20.0..70.0), 3..12),
+            probes in prop::collection::vec((-20.0..120.0, -20.0..70.0), 30),
+        ) {
+            let outline: Vec<DVec2> = places.iter().copied().map(DVec2::from).collect();
+            let kept = kept_areas(&[area(&[&places])]);
+            let kept = kept.first().map_or(&[][..], |area| &area.outlines[0]);
+            for at in probes.into_iter().map(DVec2::from) {
+                // Rounding may move an edge by a little.
+                let near = outline.iter().zip(outline.iter().cycle().skip(1)).any(|(a, b)| {
+                    ((*b - *a).perp_dot(at - *a) / a.distance(*b)).abs() < 1e-6
+                });
+                if !near {
+                    let within = inside(&marks().page, at, 0.0);
+                    prop_assert_eq!(winding(kept, at), if within { winding(&outline, at) } else { 0 });
+                }
+            }
+        }
     }
 }

@@ -26,6 +26,16 @@ pub fn on_step(at: DVec2) -> DVec2 {
     DVec2::new(nearest(at.x, PLACE), nearest(at.y, PLACE))
 }
 
+/// Rounds the points of an outline, and removes those that repeat their neighbour or are not numbers.
+fn round_outline(outline: &mut Vec<DVec2>) {
+    outline.iter_mut().for_each(|at| *at = on_step(*at));
+    outline.retain(|at| at.is_finite());
+    outline.dedup();
+    while outline.len() > 1 && outline.first() == outline.last() {
+        outline.pop();
+    }
+}
+
 impl Marks {
     /// Prepares marks for every writer: rounds them to steps and clips them to the frame.
     pub fn settle(&mut self) {
@@ -35,12 +45,14 @@ impl Marks {
         self.round();
     }
 
-    /// Rounds every mark to its step: places to 0.001 mm, radii to 0.005 mm, opacities to 1/16, colours of vertices to
-    /// 1/255 of sRGB. If the scene counts in pixels, the step of radii is 0.001 mm too, because dots may then be a few
+    /// Rounds every mark to its step: places and sizes of text to 0.001 mm, radii to 0.005 mm, opacities to 1/16, colours
+    /// of vertices and areas to 1/255 of sRGB. If the scene counts in pixels, the step of radii is 0.001 mm too, because dots may then be a few
     /// hundredths of a millimetre.
     ///
     /// Dots that then have no radius or opacity, or whose place is not a number, are removed. Vertices whose place is
-    /// not a number are removed, too, and then lines of fewer than two vertices. Rounding twice changes nothing.
+    /// not a number are removed, too, and then lines of fewer than two vertices. Areas lose repeated points and those whose
+    /// place is not a number, then outlines of fewer than three points. Areas and text that cannot be seen are removed.
+    /// Rounding twice changes nothing.
     pub fn round(&mut self) {
         let radius_steps = match self.page.unit {
             PageUnit::Millimetres => 200.0,
@@ -63,13 +75,27 @@ impl Marks {
                 });
                 line.vertices.len() > 1
             });
+            layer.areas.retain_mut(|area| {
+                area.outlines.iter_mut().for_each(round_outline);
+                area.outlines.retain(|outline| outline.len() > 2);
+                area.opacity = nearest(area.opacity.min(1.0), OPACITY);
+                area.color = area.color.map(on_codes);
+                !area.outlines.is_empty() && area.opacity > 0.0
+            });
+            layer.texts.retain_mut(|text| {
+                text.at = on_step(text.at);
+                text.size = nearest(text.size, PLACE);
+                text.opacity = nearest(text.opacity.min(1.0), OPACITY);
+                let is_seen = text.size > 0.0 && text.opacity > 0.0 && !text.characters.trim().is_empty();
+                is_seen && text.at.is_finite() && text.size.is_finite()
+            });
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Dot, Layer, Page, Pen, Polyline, Vertex};
+    use super::super::{Area, Dot, Layer, Page, Pen, Polyline, Text, Vertex};
     use super::*;
     use glam::DVec3;
 
@@ -140,5 +166,42 @@ mod tests {
         assert_eq!((list.layers[0].dots.len(), list.layers[0].lines.len()), (0, 1));
         let vertices = &list.layers[0].lines[0].vertices;
         assert_eq!((vertices.len(), vertices[0].opacity), (2, 1.0));
+    }
+
+    #[test]
+    fn areas_and_text_are_on_steps() {
+        let points = [(1.0004, 2.0006), (1.00041, 2.0006), (3.0, f64::NAN), (5.0, 2.0), (5.0, 6.0), (1.0, 2.001)];
+        let points: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
+        let flat = vec![DVec2::ZERO, DVec2::new(1e-4, 0.0), DVec2::ONE];
+        let area = |outlines: &[&Vec<DVec2>], opacity: f64| Area {
+            outlines: outlines.iter().map(|&outline| outline.clone()).collect(),
+            opacity,
+            color: Some([0.5, 2.0, 0.0]),
+        };
+        let text = |characters: &str, size: f64, opacity: f64| Text {
+            characters: characters.into(),
+            at: DVec2::new(1.00049, 2.0),
+            size,
+            opacity,
+        };
+        let mut list = marks(Page::in_millimetres(DVec2::splat(100.0), 0.0, 300.0), vec![]);
+        list.layers[0].areas = vec![area(&[&flat, &points], 0.52), area(&[&flat], 1.0), area(&[&points], 0.03)];
+        list.layers[0].texts = vec![
+            text("a", 3.0004, 2.0),
+            text(" ", 3.0, 1.0),
+            text("a", 0.0004, 1.0),
+            text("a", 3.0, 0.0),
+            text("a", f64::INFINITY, 1.0),
+        ];
+        list.round();
+        let corners = [(1.0, 2.001), (5.0, 2.0), (5.0, 6.0)].map(DVec2::from).to_vec();
+        assert_eq!(
+            list.layers[0].areas,
+            [Area { outlines: vec![corners], opacity: 0.5, color: Some([srgb_to_linear(188.0 / 255.0), 1.0, 0.0]) }]
+        );
+        assert_eq!(list.layers[0].texts, [Text { at: DVec2::new(1.0, 2.0), ..text("a", 3.0, 1.0) }]);
+        let once = list.clone();
+        list.round();
+        assert_eq!(list, once);
     }
 }

@@ -91,6 +91,8 @@ pub enum Pass {
     MergedStrokes,
     /// Gaps in strokes where nearer lines cross them ([HATCH-20]).
     Gaps,
+    /// Boxes, arrows, fans, labels, scale bar and orientation ([VS-8], [VS-10]).
+    Annotations,
 }
 
 impl Pass {
@@ -144,6 +146,7 @@ impl Pass {
             Self::HiddenStrokes => "hidden strokes",
             Self::MergedStrokes => "merged strokes",
             Self::Gaps => "gaps of strokes",
+            Self::Annotations => "annotations",
         }
     }
 
@@ -193,6 +196,9 @@ impl Pass {
             Self::HiddenStrokes => "one look at each voxel, once; a line towards the eye every half pixel of a stroke",
             Self::MergedStrokes => "40 bytes a ray that a stroke is on, and one more sample where it is in the volume",
             Self::Gaps => "one look at its neighbours on the page a segment of a line",
+            Self::Annotations => {
+                "a ray a pixel of a line that the volume may hide, and 128² rays if labels ask what is seen"
+            }
         }
     }
 
@@ -223,7 +229,8 @@ impl Pass {
             | Self::Creases
             | Self::Outlines
             | Self::HiddenStrokes
-            | Self::Gaps => 0,
+            | Self::Gaps
+            | Self::Annotations => 0,
             // At most a cell a voxel: where it is, its p, and once more if a stroke begins there.
             Self::SeenCells => 56,
             // Of the cells of a surface alone.

@@ -145,9 +145,14 @@ pub struct SelectionFacts {
 
 impl SelectionFacts {
     /// The centre of the box, or of the grid if nothing is selected, in world space.
-    fn centre(&self) -> DVec3 {
+    pub fn centre(&self) -> DVec3 {
         let [lo, hi] = self.index_box.unwrap_or_else(|| self.grid.index_box());
         self.grid.to_world((lo + hi) * 0.5)
+    }
+
+    /// The corners of the box, or of the grid if nothing is selected, in world space, x fastest.
+    pub fn corners(&self) -> [DVec3; 8] {
+        self.grid.corners_of(self.index_box.unwrap_or_else(|| self.grid.index_box()))
     }
 }
 

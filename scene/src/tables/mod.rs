@@ -4,6 +4,7 @@
 //! Checking, `--full`, the schema and the reference page are made from that. The needs of a table and its knobs stand
 //! beside the plan (`plan::rules`), since they read the whole scene.
 
+pub mod annotation;
 pub mod camera;
 pub mod clip;
 pub mod combine;
@@ -39,6 +40,10 @@ mod unit_pairs;
 pub mod volume;
 
 pub use crate::length::Length;
+pub use annotation::{
+    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, BoxTable, Corner, FanShape, FanTable, LabelAnchor,
+    LabelLayout, LabelSource, LabelTable, LabelsTable, LineStyle, Orientation, ScaleBar,
+};
 pub use camera::{Camera, Projection};
 pub use clip::{Clip, ClipSpace};
 pub use combine::{Combine, Fuzzy};
@@ -62,7 +67,7 @@ pub use object::{
 pub use orbit::Orbit;
 pub use outlines::{Crease, Outlines};
 pub use over::{Axis, LabelKey, Over};
-pub use page::PageSettings;
+pub use page::{PageSettings, PageText};
 pub use pen::PenSettings;
 pub use picture::{Background, BlendSpace, PictureSettings, RaysPerPixel};
 pub use sampling::{GradientEstimator, HessianEstimator, Kernel, NormalSide, Number, Sampling, StepAlong};

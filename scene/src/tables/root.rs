@@ -1,5 +1,6 @@
 //! The description of a whole scene file ([SCN-1], [SCN-3]).
 
+use super::annotation::{arrow, bounding_box, fan, label, orientation, scale_bar};
 use super::preset::PRESETS;
 use super::{
     Halo, ObjectTable, Scene, camera, clip, combine, contours, halo, hatching, intersection, mesh, object, orbit,
@@ -49,13 +50,7 @@ const fn later(name: &'static str, tag: &'static str) -> Later {
 
 /// The whole file.
 pub(crate) static ROOT: Table<Scene> = Table {
-    later: &[
-        later("box", "VS-8"),
-        later("arrow", "VS-8"),
-        later("fan", "VS-10"),
-        later("label", "VS-10"),
-        later("conventions", "GPU-6"),
-    ],
+    later: &[later("conventions", "GPU-6")],
     check: |_, check| {
         if !check.has("volume") {
             check.fault_in("volume", volume::no_volume());
@@ -132,6 +127,27 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// Opaque meshes, which cut the volume and are cut by it.
             meshes: key("VS-12", ListOf { what: "a list of meshes", most: FEW, each: TableOf(&mesh::TABLE) },
                 |s| unless_empty(&s.meshes)).named("mesh").absent("none").needs(&[Quantity::Mesh]);
+            /// The edges of bounding boxes.
+            boxes: key("VS-8", ListOf { what: "a list of boxes", most: FEW, each: TableOf(&bounding_box::TABLE) },
+                |s| unless_empty(&s.annotations.boxes), |s, v| s.annotations.boxes = v).named("box").absent("none");
+            /// Arrows, such as from the place of an object to where it is moved.
+            arrows: key("VS-8", ListOf { what: "a list of arrows", most: FEW, each: TableOf(&arrow::TABLE) },
+                |s| unless_empty(&s.annotations.arrows), |s, v| s.annotations.arrows = v).named("arrow").absent("none");
+            /// Outlines of a part and of its copy, with the lines that join them.
+            fans: key("VS-8", ListOf { what: "a list of fans", most: FEW, each: TableOf(&fan::TABLE) },
+                |s| unless_empty(&s.annotations.fans), |s, v| s.annotations.fans = v).named("fan").absent("none");
+            /// Text beside the picture, with leader lines to what it names.
+            label: key("VS-10", ListOf { what: "a list of labels", most: FEW, each: TableOf(&label::LABEL) },
+                |s| unless_empty(&s.annotations.labels), |s, v| s.annotations.labels = v).absent("none");
+            /// The arrangement of all labels.
+            labels: key("VS-10", TableOf(&label::LABELS),
+                |s| s.annotations.arrangement.clone(), |s, v| s.annotations.arrangement = Some(v)).absent("the default, with labels");
+            /// A line of known length.
+            scale_bar: key("VS-8", TableOf(&scale_bar::TABLE),
+                |s| s.annotations.scale_bar.clone(), |s, v| s.annotations.scale_bar = Some(v)).absent("none");
+            /// The directions of the data.
+            orientation: key("VS-8", TableOf(&orientation::TABLE),
+                |s| s.annotations.orientation.clone(), |s, v| s.annotations.orientation = Some(v)).absent("none");
         } },
     )
 };

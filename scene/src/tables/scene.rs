@@ -1,8 +1,8 @@
 //! The scene: all tables of a scene file ([SCN-1], [SCN-3]).
 
 use super::{
-    Background, Camera, Clip, Combine, Contours, Halo, Hatching, IntersectionTable, LightDirection, MeshTable,
-    ObjectTable, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
+    Annotations, Background, Camera, Clip, Combine, Contours, Halo, Hatching, IntersectionTable, LightDirection,
+    MeshTable, ObjectTable, Orbit, Outlines, PageSettings, PenSettings, PictureSettings, Sampling, Shading, Stipples,
     StyleMipmaps, Styles, Surface, SurfaceLook, Transfer, TransferKind, VolumeSource, VolumeTable,
 };
 use crate::document::Given;
@@ -58,6 +58,8 @@ pub struct Scene {
     pub surface: Option<Surface>,
     /// Opaque meshes, in their order.
     pub meshes: Vec<MeshTable>,
+    /// What is laid over the picture.
+    pub annotations: Annotations,
     /// The keys that the scene gives itself, and their places. Comparisons of scenes ignore this field.
     pub given: Given,
 }
@@ -93,6 +95,11 @@ impl Scene {
     /// Whether points or lines are drawn.
     pub fn has_marks(&self) -> bool {
         self.stipples.is_some() || self.has_strokes()
+    }
+
+    /// Whether points, lines or annotations are drawn, which have lengths on the page.
+    pub fn draws_on_page(&self) -> bool {
+        self.has_marks() || !self.annotations.is_empty()
     }
 
     /// Whether strokes are drawn.

@@ -1,6 +1,7 @@
 //! VolumeShop (Bruckner and Gröller 2005).
 
 mod by_hand;
+mod conventions;
 mod counts;
 mod coverage;
 mod cutaways;

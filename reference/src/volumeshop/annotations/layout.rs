@@ -61,7 +61,13 @@ pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Anno
         let previous = previous.and_then(|layout| layout.annotations.get(i));
         Label::new(i, all[i], previous, &hull)
     });
-    let mut table = Table { labels: labels.collect(), hull, frame: page.frame, relocations: Vec::new() };
+    let mut table = Table {
+        labels: labels.collect(),
+        hull,
+        frame: page.frame,
+        obstacles: &page.obstacles,
+        relocations: Vec::new(),
+    };
     table.resolve(page.rounds);
     table.keep(page.rounds);
     for Label { index, given, home, place, hidden, .. } in table.labels {
@@ -125,14 +131,15 @@ impl Label {
 }
 
 /// The labels of a page, from the nearest anchor to the farthest.
-struct Table {
+struct Table<'a> {
     labels: Vec<Label>,
     hull: RadialHull,
     frame: [DVec2; 2],
+    obstacles: &'a [[DVec2; 2]],
     relocations: Vec<Relocation>,
 }
 
-impl Table {
+impl Table<'_> {
     /// The three steps of 6.4, in rounds until nothing changes. Labels that the previous layout hid take no part.
     fn resolve(&mut self, rounds: usize) {
         let sides = self.labels.iter().filter(|label| label.changed_side);
@@ -186,7 +193,7 @@ impl Table {
 
     /// Number of conflicts that two labels have at two places.
     fn conflicts(&self, pair: [usize; 2], places: [Place; 2]) -> usize {
-        let outside = places.iter().filter(|place| !place.is_within(self.frame)).count();
+        let outside = places.iter().filter(|place| !self.is_free(place)).count();
         let others = (0..self.labels.len()).filter(|k| !pair.contains(k) && self.is_shown(*k));
         let met = others.map(|k| places.iter().filter(|place| place.meets(&self.labels[k].place)).count());
         outside + met.sum::<usize>() + usize::from(places[0].meets(&places[1]))
@@ -267,7 +274,7 @@ impl Table {
 
     /// Why a label cannot be at a place: the frame, or the nearest of some labels that are kept.
     fn conflict(&self, i: usize, place: &Place, others: Range<usize>) -> Option<Hidden> {
-        if !place.is_within(self.frame) {
+        if !self.is_free(place) {
             return Some(Hidden::OutsideFrame);
         }
         let met = others.filter(|&k| k != i && self.is_shown(k)).find(|&k| place.meets(&self.labels[k].place))?;
@@ -279,6 +286,11 @@ impl Table {
     fn nudged(&self, i: usize, nudges: usize) -> Place {
         let label = &self.labels[i];
         Place::new(&self.hull, self.hull.at(wrapped(label.home + nudges as f64 * NUDGE)), &label.given)
+    }
+
+    /// Whether a place is within the frame and covers no obstacle.
+    fn is_free(&self, place: &Place) -> bool {
+        place.is_within(self.frame) && !self.obstacles.iter().any(|obstacle| place.covers(*obstacle))
     }
 
     fn is_shown(&self, i: usize) -> bool {

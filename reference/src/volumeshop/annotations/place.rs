@@ -43,7 +43,12 @@ impl Place {
 
     /// Whether the insides of two boxes overlap.
     pub(super) fn overlaps(&self, other: &Self) -> bool {
-        self.corners[0].cmplt(other.corners[1]).all() && other.corners[0].cmplt(self.corners[1]).all()
+        self.covers(other.corners)
+    }
+
+    /// Whether the insides of the box and of a rectangle overlap.
+    pub(super) fn covers(&self, [lower, upper]: [DVec2; 2]) -> bool {
+        self.corners[0].cmplt(upper).all() && lower.cmplt(self.corners[1]).all()
     }
 
     /// Whether the leader line of one of two labels runs through the inside of the other one's box. Boxes lie outside

@@ -9,7 +9,7 @@ const FRAME: [DVec2; 2] = [DVec2::ZERO, DVec2::new(800.0, 600.0)];
 const ROUNDING: f64 = 1e-9;
 
 fn page(annotations: Vec<Annotation>, outline: Vec<DVec2>) -> AnnotatedPage {
-    AnnotatedPage { annotations, outline, frame: FRAME, rounds: 256, least_opacity: 0.25 }
+    AnnotatedPage { annotations, outline, frame: FRAME, obstacles: Vec::new(), rounds: 256, least_opacity: 0.25 }
 }
 
 /// A label of 60 × 20.
@@ -321,4 +321,23 @@ fn hard_cases() {
     let mut huge = page(at(3, 1e308, 1e308), vec![DVec2::splat(-1e308), DVec2::new(1e308, -1e308)]);
     huge.frame = [DVec2::splat(-1.7e308), DVec2::splat(1.7e308)];
     assert_eq!(layout(&huge, None).annotations.len(), 3);
+}
+
+/// A label whose home is covered stands beside the obstacle; without room beside it it is hidden.
+#[test]
+fn labels_cover_no_obstacle() {
+    let mut page = random_page(3);
+    let free = layout(&page, None);
+    let i = free.annotations.iter().position(|place| place.hidden.is_none()).unwrap();
+    page.obstacles = vec![free.annotations[i].corners];
+    let found = layout(&page, None);
+    for place in found.annotations.iter().filter(|place| place.hidden.is_none()) {
+        let [[lo, hi], [low, high]] = [place.corners, page.obstacles[0]];
+        assert!(!(lo.cmplt(high).all() && low.cmplt(hi).all()), "{place:?}");
+    }
+    let at_home = found.annotations[i];
+    assert!(at_home.hidden.is_some() || at_home.corners != free.annotations[i].corners);
+    page.obstacles = vec![page.frame];
+    let none = layout(&page, None);
+    assert!(none.annotations.iter().all(|place| matches!(place.hidden, Some(Hidden::OutsideFrame | Hidden::Invalid))));
 }

@@ -1,5 +1,6 @@
 //! Checks that need several tables of a scene.
 
+mod annotations;
 mod halos;
 mod objects;
 mod page;
@@ -18,6 +19,7 @@ pub(super) fn check(scene: &Scene, check: &mut Check) {
     pens(&scene.pens, check);
     labels(scene, check);
     colors(scene, check);
+    annotations::check(scene, check);
     halos::check(scene, check);
     objects::check(scene, check);
     page::check(scene, check);

@@ -75,7 +75,7 @@ fn labels(scene: &Scene, check: &mut Check) {
     }
 }
 
-/// Clip planes and halos may name the background, objects, and ghosts of moved objects.
+/// Clip planes, halos and annotations may name the background, objects, and ghosts of moved objects.
 fn references(scene: &Scene, check: &mut Check) {
     let of_clips = scene.clips.iter().enumerate().flat_map(|(i, clip)| {
         clip.applies.iter().enumerate().map(move |(j, part)| (format!("clip[{i}].applies[{j}]"), part))
@@ -84,7 +84,10 @@ fn references(scene: &Scene, check: &mut Check) {
     let of_halos = of_halos.filter_map(|(i, halo)| Some((format!("halo[{i}].object"), halo.object.as_ref()?)));
     let known = known_parts(&scene.objects);
     let there: BTreeSet<&PartName> = known.iter().collect();
-    let all: Vec<_> = of_clips.chain(of_halos).filter(|(_, part)| !there.contains(part)).collect();
+    let of_annotations = scene.annotations.parts();
+    let of_annotations = of_annotations.iter().map(|(key, part)| (key.clone(), *part));
+    let all: Vec<_> =
+        of_clips.chain(of_halos).chain(of_annotations).filter(|(_, part)| !there.contains(part)).collect();
     let known: Vec<String> = known.iter().map(ToString::to_string).collect();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
     for (key, part) in all {

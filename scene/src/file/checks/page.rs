@@ -14,7 +14,7 @@ const LONGEST: f64 = 1000.0;
 
 /// Reports a picture that no page has room for, and lengths that are absurd on their page.
 pub(super) fn check(scene: &Scene, check: &mut Check) {
-    let has_page = scene.has_marks() || scene.page.is_some() || !scene.pens.is_empty();
+    let has_page = scene.draws_on_page() || scene.page.is_some() || !scene.pens.is_empty();
     if !has_page || !check.sound(&["picture", "page", "pen", "stipples", "hatching", "outlines"]) {
         return;
     }
@@ -63,6 +63,8 @@ fn lengths(scene: &Scene) -> Vec<(String, Length)> {
         all.push(("outlines.width".into(), outlines.width));
         all.push(("outlines.min_length".into(), outlines.min_length));
     }
+    let annotations = scene.annotations.lengths();
+    all.extend(annotations.into_iter().map(|(table, key, length)| (format!("{table}.{key}"), length)));
     all
 }
 

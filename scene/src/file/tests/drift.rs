@@ -30,6 +30,17 @@ const PAINTED: (&str, &str) =
     ("intersection", "[{ object = \"a\", dabs = [{ at = [1, 2], width = 3, color = \"red\" }] }]");
 const MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\" }]");
 const TURNED_MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\", rotate = { angle = 10 } }]");
+const BOX: (&str, &str) = ("box", "[{ occluded = true }]");
+const ARROW: (&str, &str) = ("arrow", "[{ from = [0, 0, 0], to = [1, 1, 1] }]");
+const FAN: (&str, &str) = ("fan", "[{ from = \"background\", to = \"a\" }]");
+const LABEL: (&str, &str) = ("label", "[{ text = \"a\" }]");
+const PLACED_LABEL: (&str, &str) = ("label", "[{ text = \"a\", at = [0, 0, 0] }]");
+const MOST_LABELS: (&str, &str) = ("label", "[{ most = 3 }]");
+const FROM_LABELS: (&str, &str) = ("label", "[{ from = \"labels\" }]");
+const LABEL_VOLUME: (&str, &str) = ("volume.labels", "parts.nrrd");
+const LABELS: (&str, &str) = ("labels", "{}");
+const SCALE_BAR: (&str, &str) = ("scale_bar", "{}");
+const ORIENTATION: (&str, &str) = ("orientation", "{}");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
 const HATCHING: (&str, &str) = ("hatching", "{}");
@@ -103,6 +114,7 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("page", &[], "{}"),
     ("page.margin", &[], "5 px"),
     ("page.plotter", &[], "true"),
+    ("page.text", &[], "outlines"),
     ("pen", &[], "[{ name = \"red\" }]"),
     ("pen[0].name", &[PEN], "green"),
     ("pen[0].width", &[PEN], "0.7 mm"),
@@ -386,6 +398,67 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("surface.silhouette", &[SURFACE], "{}"),
     ("surface.silhouette.offset", &[SURFACE], "0.3"),
     ("surface.view_opacity", &[SURFACE], "2"),
+    ("box", &[], "[{ occluded = true }]"),
+    ("box[0].of", &[BOX, TWO], "a"),
+    ("box[0].show", &[BOX], "draft"),
+    ("box[0].occluded", &[BOX], "false"),
+    ("box[0].color", &[BOX], "red"),
+    ("box[0].width", &[BOX], "2 px"),
+    ("box[0].pen", &[BOX], "red"),
+    ("arrow", &[], "[{ from = [0, 0, 0], to = [1, 1, 1] }]"),
+    ("arrow[0].from", &[ARROW, TWO], "a"),
+    ("arrow[0].to", &[ARROW], "[4, 5, 6]"),
+    ("arrow[0].bend", &[ARROW], "0"),
+    ("arrow[0].ends", &[ARROW], "box"),
+    ("arrow[0].head", &[ARROW], "2 mm"),
+    ("arrow[0].occluded", &[ARROW], "false"),
+    ("arrow[0].color", &[ARROW], "red"),
+    ("arrow[0].width", &[ARROW], "2 px"),
+    ("arrow[0].pen", &[ARROW], "red"),
+    ("fan", &[TWO], "[{ from = \"background\", to = \"a\" }]"),
+    ("fan[0].from", &[FAN, TWO], "b"),
+    ("fan[0].to", &[FAN, TWO], "b"),
+    ("fan[0].shape", &[FAN, TWO], "circle"),
+    ("fan[0].fill", &[FAN, TWO], "red"),
+    ("fan[0].color", &[FAN, TWO], "red"),
+    ("fan[0].width", &[FAN, TWO], "2 px"),
+    ("fan[0].pen", &[FAN, TWO], "red"),
+    ("label", &[], "[{ text = \"a\", at = [0, 0, 0] }]"),
+    ("label[0].text", &[PLACED_LABEL], "b"),
+    ("label[0].at", &[LABEL], "[1, 2, 3]"),
+    ("label[0].pixel", &[LABEL], "[1, 2]"),
+    ("label[0].object", &[LABEL, TWO], "a"),
+    ("label[0].label", &[LABEL, LABEL_VOLUME], "3"),
+    ("label[0].anchor", &[PLACED_LABEL], "centroid"),
+    ("label[0].from", &[MOST_LABELS, LABEL_VOLUME], "labels"),
+    ("label[0].most", &[FROM_LABELS, LABEL_VOLUME], "5"),
+    ("labels", &[], "{}"),
+    ("labels.layout", &[], "hull"),
+    ("labels.size", &[LABELS], "2 mm"),
+    ("labels.dot", &[LABELS], "0 mm"),
+    ("labels.gap", &[LABELS], "0 mm"),
+    ("labels.distance", &[LABELS], "0 mm"),
+    ("labels.least_opacity", &[LABELS], "1"),
+    ("labels.rounds", &[LABELS], "3"),
+    ("labels.color", &[LABELS], "red"),
+    ("labels.width", &[LABELS], "2 px"),
+    ("labels.pen", &[LABELS], "red"),
+    ("scale_bar", &[], "{}"),
+    ("scale_bar.length", &[SCALE_BAR], "20"),
+    ("scale_bar.unit", &[SCALE_BAR], "µm"),
+    ("scale_bar.corner", &[SCALE_BAR], "top-left"),
+    ("scale_bar.size", &[SCALE_BAR], "2 mm"),
+    ("scale_bar.color", &[SCALE_BAR], "red"),
+    ("scale_bar.width", &[SCALE_BAR], "2 px"),
+    ("scale_bar.pen", &[SCALE_BAR], "red"),
+    ("orientation", &[], "{}"),
+    ("orientation.letters", &[ORIENTATION], "false"),
+    ("orientation.triad", &[ORIENTATION], "true"),
+    ("orientation.corner", &[ORIENTATION], "top-left"),
+    ("orientation.size", &[ORIENTATION], "2 mm"),
+    ("orientation.color", &[ORIENTATION], "red"),
+    ("orientation.width", &[ORIENTATION], "2 px"),
+    ("orientation.pen", &[ORIENTATION], "red"),
 ];
 
 /// Keys that can have one value only, so far.
@@ -411,11 +484,13 @@ fn every_key_changes_the_scene_and_is_written_back() {
         let without = with(beside);
         let all: Vec<_> = beside.iter().copied().chain([(*key, *value)]).collect();
         let changed = with(&all).unwrap_or_else(|faults| panic!("{key}\n{faults}"));
-        // Without `width` a `height` is at fault, and the other way round: there is no scene to compare with.
+        // Without `width` a `height` is at fault, and the other way round, and a label without what it names: there is no
+        // scene to compare with.
         if let Ok(without) = without {
             assert_ne!(changed, without, "{key}");
         } else {
-            assert!(["picture.width", "picture.height"].contains(key), "{key}");
+            let names = ["label[0].at", "label[0].pixel", "label[0].object", "label[0].label", "label[0].from"];
+            assert!(["picture.width", "picture.height"].contains(key) || names.contains(key), "{key}");
         }
         let full = write_full(&changed);
         let back = parse(&full, Path::new("scene.toml"), &Overrides::default()).unwrap();

@@ -1,5 +1,6 @@
 //! The rules of the tables of a scene for its plan, one file a table: needs, keys without effect, knobs.
 
+mod annotation;
 mod camera;
 mod clip;
 mod contours;
@@ -49,7 +50,7 @@ impl Rules {
 }
 
 /// The rules of all tables that ask something, in the order of the file.
-static ALL: [Rules; 21] = [
+static ALL: [Rules; 22] = [
     scene::RULES,
     volume::RULES,
     clip::RULES,
@@ -71,6 +72,7 @@ static ALL: [Rules; 21] = [
     outlines::RULES,
     surface::RULES,
     mesh::RULES,
+    annotation::RULES,
 ];
 
 /// The rules of the tables of a scene, those of a list of tables once for each item.

@@ -57,7 +57,7 @@ pub(super) const RULES: Rules = Rules {
             idle.key("picture.contrast", why);
         }
         let halos_in_millimetres = halos_in_effect(scene).any(|(_, halo)| is_in_millimetres(halo));
-        if !idle.says("picture.width") && !scene.has_marks() && !halos_in_millimetres {
+        if !idle.says("picture.width") && !scene.draws_on_page() && !halos_in_millimetres {
             idle.key("picture.dpi", "nothing is in mm: size is in pixels");
         }
     },

@@ -2,7 +2,8 @@
 
 use crate::picture::LayerKind;
 use crate::tables::{
-    GhostTable, Halo, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource, VolumeTable,
+    Annotations, GhostTable, Halo, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource,
+    VolumeTable,
 };
 use serde::{Deserialize, Serialize};
 
@@ -114,6 +115,7 @@ impl Scene {
             outlines: self.outlines.clone(),
             surface: self.surface.clone(),
             meshes: self.meshes.clone(),
+            annotations: Annotations::default(),
             given: self.given.clone(),
         }
     }

@@ -1,0 +1,10 @@
+//! What figures have beside the picture: a scale bar, the directions of the data, and the points that
+//! labels of structures lead to.
+
+mod directions;
+mod inner_points;
+mod scale_bar;
+
+pub use directions::{AxisOnPage, axes_on_page, edge_letters};
+pub use inner_points::{MapRegion, inner_points};
+pub use scale_bar::{round_length, world_per_pixel};

@@ -1,0 +1,111 @@
+//! Checks of annotations against other tables. Names of parts are checked with those of other tables.
+
+use super::no_label_names;
+use crate::document::Problem;
+use crate::document::check::Check;
+use crate::tables::{AnnotatedPlace, LabelKey, Scene};
+
+/// Reports ends of arrows and fans that nothing tells, and labels of structures without a label volume.
+pub(super) fn check(scene: &Scene, check: &mut Check) {
+    ends(scene, check);
+    labels(scene, check);
+}
+
+/// An arrow or a fan without an end leads from the ghost to the selection of the one object that is moved.
+fn ends(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["object", "arrow", "fan"]) {
+        return;
+    }
+    let moved = scene.objects.iter().filter(|object| object.motion.is_moved()).count();
+    let annotations = &scene.annotations;
+    let arrows =
+        annotations.arrows.iter().enumerate().map(|(i, arrow)| (format!("arrow[{i}]"), &arrow.from, &arrow.to));
+    let fans = annotations.fans.iter().enumerate().map(|(i, fan)| (format!("fan[{i}]"), &fan.from, &fan.to));
+    for (table, from, to) in arrows.chain(fans) {
+        let missing = [("from", from), ("to", to)].into_iter().find(|(_, end)| end.is_none());
+        if let Some((key, _)) = missing.filter(|_| moved != 1) {
+            let key = format!("{table}.{key}");
+            let what = format!("{key} is missing, and {moved} objects are moved");
+            let remedy = "name a part or a point; the default is of the only object that is moved".into();
+            check.fault_in(&key, Problem::Contradiction { what, remedy });
+        }
+        let fan_point = [("from", from), ("to", to)]
+            .into_iter()
+            .find(|(_, end)| table.starts_with("fan") && matches!(end, Some(AnnotatedPlace::Point(_))));
+        if let Some((key, _)) = fan_point {
+            let what = format!("{table}.{key} is a point, and a fan joins the boxes of parts");
+            let remedy = "name a part".into();
+            check.fault_in(&format!("{table}.{key}"), Problem::Contradiction { what, remedy });
+        }
+    }
+}
+
+/// Labels of structures need a label volume, and their names a table of names.
+fn labels(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["label", "volume"]) {
+        return;
+    }
+    for (i, label) in scene.annotations.labels.iter().enumerate() {
+        let key = if label.from.is_some() { "from" } else { "label" };
+        if label.from.is_none() && label.label.is_none() {
+            continue;
+        }
+        let key = format!("label[{i}].{key}");
+        if scene.volume.labels.is_none() {
+            let what = format!("{key} names structures of a label volume, and the scene has none");
+            let remedy = "add the label volume: volume.labels = \"…\"".into();
+            check.fault_in(&key, Problem::Contradiction { what, remedy });
+        } else if let (None, Some(LabelKey::Name(name))) = (&scene.volume.label_names, &label.label) {
+            check.fault_in(&key, no_label_names(name));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::file::{Overrides, parse};
+    use crate::plan::Plan;
+    use std::path::Path;
+
+    fn scene(rest: &str) -> Result<crate::tables::Scene, String> {
+        let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
+        parse(&text, Path::new("scene.toml"), &Overrides::default()).map_err(|faults| faults.to_string())
+    }
+
+    #[test]
+    fn faults_of_annotations_are_told() {
+        for (rest, what) in [
+            ("[[arrow]]\n", "arrow[0].from is missing, and 0 objects are moved\n"),
+            ("[[fan]]\nfrom = [0, 0, 0]\nto = \"background\"\n", "fan[0].from is a point, and a fan joins"),
+            ("[[box]]\nof = \"liver\"\n", "box[0].of"),
+            ("[[label]]\n", "the label names nothing\n"),
+            ("[[label]]\nat = [0, 0, 0]\n", "the label has no text\n"),
+            ("[[label]]\nfrom = \"labels\"\n", "label[0].from names structures of a label volume"),
+            ("[[label]]\nlabel = 3\n", "label[0].label names structures of a label volume"),
+            ("[[label]]\nlabel = 3\npixel = [1, 2]\n", "a label has both pixel and label\n"),
+            ("[labels]\nsize = \"10 km\"\n[[label]]\nat = [0, 0, 0]\ntext = \"a\"\n", "labels.size"),
+        ] {
+            let faults = scene(rest).unwrap_err();
+            assert!(faults.contains(what), "{rest}: {faults}");
+        }
+    }
+
+    #[test]
+    fn annotations_are_planned_where_there_are_some() {
+        let has = |rest: &str| {
+            let scene = scene(rest).unwrap();
+            assert!(scene.transfer.is_some());
+            Plan::new(&scene).passes.iter().any(|need| need.pass == crate::plan::Pass::Annotations)
+        };
+        assert!(has("[scale_bar]\n") && has("[orientation]\n") && has("[[box]]\n"));
+        assert!(!has("") && !has("[[box]]\nshow = \"draft\"\n") && !has("[labels]\n"));
+        let idle = |rest: &str| -> Vec<String> {
+            Plan::new(&scene(rest).unwrap()).idle_keys.into_iter().map(|idle| idle.key).collect()
+        };
+        assert_eq!(idle("[labels]\nrounds = 1\n"), ["labels"]);
+        let label = "[[label]]\nat = [0, 0, 0]\ntext = \"a\"\nmost = 3\n[picture]\ndpi = 100\n";
+        assert_eq!(idle(label), ["label[0].most"]);
+        let pen = "[[pen]]\nname = \"a\"\n[scale_bar]\npen = \"a\"\nwidth = \"1 mm\"\n";
+        assert_eq!(idle(pen), ["scale_bar.width"]);
+    }
+}

@@ -1,0 +1,217 @@
+//! Annotations of a job's pictures: boxes, fans, arrows, labels, a scale bar and the directions of the data ([VS-8],
+//! [VS-10]).
+
+mod labels;
+mod lines;
+mod margin;
+
+use crate::Failure;
+use crate::job::{Job, RenderTarget, pen_named};
+use drypoint_reference::ray::Renderer;
+use drypoint_reference::volumeshop::conventions::{ArrowCurve, Fan, edge_points, edges};
+use drypoint_scene::annotations::AnnotationLayout;
+use drypoint_scene::glam::{DVec2, DVec3};
+use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen};
+use drypoint_scene::tables::{
+    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, PartName,
+};
+use drypoint_scene::view::View;
+use labels::LabelAnchors;
+use lines::Seen;
+
+/// The most points of one line.
+const MOST_POINTS: usize = 20_000;
+
+/// Frames of a job's annotations.
+pub(crate) struct Annotating<'a> {
+    job: &'a Job,
+    page: Page,
+    /// The places that labels lead to, found in the first frame.
+    anchors: Option<LabelAnchors>,
+    /// The labels of the frame before.
+    previous: Option<AnnotationLayout>,
+}
+
+/// Annotations of one frame.
+pub(crate) struct AnnotationFrame {
+    /// The layers, from the lowest.
+    pub(crate) layers: Vec<Layer>,
+    /// What was left out, a sentence each.
+    pub(crate) notes: Vec<String>,
+}
+
+impl<'a> Annotating<'a> {
+    /// Makes frames of a job's annotations. Returns none if there are none, or if the picture lacks the layer `beauty`,
+    /// over which they are drawn.
+    pub(crate) fn new(job: &'a Job) -> Option<Self> {
+        let is_shown = match job.target() {
+            RenderTarget::Picture => job.shows_beauty(),
+            RenderTarget::Marks => true,
+            RenderTarget::Points | RenderTarget::Strokes => false,
+        };
+        let is_drawn = is_shown && !job.scene.annotations.is_empty();
+        is_drawn.then(|| Self { job, page: Page::of(&job.scene), anchors: None, previous: None })
+    }
+
+    /// Returns the annotations that a camera sees. `renderer` is at this camera; without it nothing hides a line.
+    ///
+    /// # Errors
+    /// A pen that the scene does not have, or a label whose structure does not exist.
+    pub(crate) fn draw(&mut self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<AnnotationFrame, Failure> {
+        let mut layers = self.conventions(view, renderer)?;
+        let mut notes = Vec::new();
+        let margin = self.margin(view)?;
+        layers.extend(self.labels(view, renderer, &margin, &mut notes)?);
+        layers.extend(margin);
+        let mut marks = Marks { page: self.page, layers };
+        marks.settle();
+        Ok(AnnotationFrame { layers: marks.layers, notes })
+    }
+
+    fn tables(&self) -> &'a Annotations {
+        &self.job.scene.annotations
+    }
+
+    /// Boxes, fans and arrows.
+    fn conventions(&self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<Vec<Layer>, Failure> {
+        let tables = self.tables();
+        let mut layers = Vec::new();
+        for (i, table) in tables.boxes.iter().enumerate().filter(|(_, table)| table.show == BoxShown::Always) {
+            let Some(corners) = self.job.corners(&table.of) else { continue };
+            let pen = self.pen(&table.line, "box", &format!("box[{i}].pen"))?;
+            let seen = self.seen(view, renderer.filter(|_| table.occluded), &pen);
+            let lines = edges(corners)
+                .into_iter()
+                .flat_map(|edge| seen.line(&edge_points(view, edge, MOST_POINTS), lines::Course::Straight));
+            layers.push(Layer { lines: lines.collect(), ..Layer::new(pen) });
+        }
+        for (i, table) in tables.fans.iter().enumerate() {
+            layers.extend(self.fan(view, table, i)?);
+        }
+        for (i, table) in tables.arrows.iter().enumerate() {
+            layers.extend(self.arrow(view, renderer.filter(|_| table.occluded), table, i)?);
+        }
+        Ok(layers)
+    }
+
+    /// A fan: its area, then its outlines.
+    fn fan(&self, view: &View, table: &FanTable, i: usize) -> Result<Vec<Layer>, Failure> {
+        let ends = [(&table.from, false), (&table.to, true)].map(|(end, is_to)| self.end(end, is_to));
+        let [Some(from), Some(to)] = ends.map(|end| end.map(|end| self.on_page(view, &self.corners(&end)))) else {
+            return Ok(Vec::new());
+        };
+        let Some(fan) = Fan::new(table.shape, [&from, &to]) else { return Ok(Vec::new()) };
+        let pen = self.pen(&table.line, "fan", &format!("fan[{i}].pen"))?;
+        let width = pen.width;
+        let closed = fan.outlines.iter().map(|outline| lines::plain(outline, width, 1.0, true));
+        let joints = fan.joints.iter().map(|joint| lines::plain(joint, width, 1.0, false));
+        let outlines = Layer { lines: closed.chain(joints).collect(), ..Layer::new(pen) };
+        let mut layers = Vec::new();
+        if table.fill[3] > 0.0 {
+            let pen = Pen { number: 1, name: "fan area".into(), width, color: table.fill };
+            let areas = vec![Area { outlines: fan.area, opacity: 1.0, color: None }];
+            layers.push(Layer { areas, ..Layer::new(pen) });
+        }
+        layers.push(outlines);
+        Ok(layers)
+    }
+
+    /// An arrow: its shaft and its head.
+    fn arrow(
+        &self,
+        view: &View,
+        renderer: Option<&Renderer<'_>>,
+        table: &ArrowTable,
+        i: usize,
+    ) -> Result<Option<Layer>, Failure> {
+        let pen = self.pen(&table.line, "arrow", &format!("arrow[{i}].pen"))?;
+        let (Some(from), Some(to)) = (self.end(&table.from, false), self.end(&table.to, true)) else {
+            return Ok(None);
+        };
+        let Some(curve) = ArrowCurve::new(view, [&from, &to].map(|end| self.centre(end)), table.bend) else {
+            return Ok(None);
+        };
+        // The part between the boxes' outlines.
+        let [mut begin, mut tip] = [0.0, 1.0];
+        if table.ends == ArrowEnds::Box {
+            let inside = |end: &AnnotatedPlace| {
+                let corners = self.corners(end);
+                let points: Vec<DVec2> = corners.iter().filter_map(|&p| view.point_of(p)).map(DVec2::from).collect();
+                curve.inside(&points)
+            };
+            let [before, after] = [inside(&from), inside(&to)];
+            (begin, tip) = (before.map_or(0.0, |[_, last]| last), after.map_or(1.0, |[first, _]| first));
+            if begin >= tip {
+                [begin, tip] = [0.0, 1.0];
+            }
+        }
+        let head = self.mm(table.head) * self.pixels_per_mm(view);
+        let neck = curve.before(tip, head * 0.8).max(begin);
+        let seen = self.seen(view, renderer, &pen);
+        let shaft = seen.line(&curve.points([begin, neck], MOST_POINTS), lines::Course::Curved);
+        let outline = curve.head(tip, head);
+        let depth = curve.at(tip).depth;
+        let color = seen.area(&outline, depth);
+        let areas = color.filter(|_| head > 0.0).map(|color| Area {
+            outlines: vec![outline.iter().map(|&at| self.page.place(at, view.size)).collect()],
+            opacity: 1.0,
+            color,
+        });
+        Ok(Some(Layer { lines: shaft, areas: areas.into_iter().collect(), ..Layer::new(pen) }))
+    }
+
+    /// Returns the place of an end; by default the ghost, or the selection, of the only object that is moved.
+    fn end(&self, end: &Option<AnnotatedPlace>, is_to: bool) -> Option<AnnotatedPlace> {
+        end.clone().or_else(|| {
+            let moved = self.job.scene.objects.iter().find(|object| object.motion.is_moved())?;
+            let name = moved.name.clone();
+            Some(AnnotatedPlace::Part(if is_to { PartName::Selection(name) } else { PartName::Ghost(name) }))
+        })
+    }
+
+    /// Returns the corners of a place; of a point the point itself.
+    fn corners(&self, place: &AnnotatedPlace) -> Vec<DVec3> {
+        match place {
+            AnnotatedPlace::Point(point) => vec![*point],
+            AnnotatedPlace::Part(part) => self.job.corners(part).map(Vec::from).unwrap_or_default(),
+        }
+    }
+
+    /// Returns the centre of a place.
+    fn centre(&self, place: &AnnotatedPlace) -> DVec3 {
+        let corners = self.corners(place);
+        corners.iter().sum::<DVec3>() / corners.len().max(1) as f64
+    }
+
+    /// Returns points in world space on the page, in mm. Points behind the eye are left out.
+    fn on_page(&self, view: &View, points: &[DVec3]) -> Vec<DVec2> {
+        let seen = points.iter().filter_map(|&point| view.point_of(point));
+        seen.map(|at| self.page.place(DVec2::from(at), view.size)).collect()
+    }
+
+    /// Returns what lies before lines of a pen.
+    fn seen<'s>(&'s self, view: &'s View, renderer: Option<&'s Renderer<'s>>, pen: &Pen) -> Seen<'s> {
+        let [r, g, b, _] = pen.color;
+        Seen { page: &self.page, view, renderer, rgb: [r, g, b], width: pen.width }
+    }
+
+    /// Returns the pen of a line style. `key` names the key of its name.
+    fn pen(&self, style: &LineStyle, name: &str, key: &str) -> Result<Pen, Failure> {
+        match &style.pen {
+            Some(name) => pen_named(&self.job.scene, &self.page, name, key),
+            None => {
+                let width = lines::on_step(self.mm(style.width));
+                Ok(Pen { number: 1, name: name.into(), width, color: style.color })
+            }
+        }
+    }
+
+    /// Returns a length on the page, in mm.
+    fn mm(&self, length: Length) -> f64 {
+        self.page.length(length).unwrap_or_default()
+    }
+
+    fn pixels_per_mm(&self, view: &View) -> f64 {
+        view.size[1] as f64 / self.page.picture().y
+    }
+}

@@ -1,0 +1,273 @@
+//! Labels of structures, with their leader lines ([VS-10]).
+
+use super::{Annotating, lines};
+use crate::Failure;
+use crate::picking::point_of_pixel;
+use drypoint_output::text::font::extent;
+use drypoint_reference::figure::inner_points;
+use drypoint_reference::ray::{Picked, Renderer};
+use drypoint_reference::volumeshop::annotations::layout;
+use drypoint_scene::annotations::{AnnotatedPage, Annotation, AnnotationLayout, Hidden, PlacedAnnotation};
+use drypoint_scene::glam::{DVec2, DVec3};
+use drypoint_scene::marks::{Dot, Layer, Text};
+use drypoint_scene::parallel;
+use drypoint_scene::tables::{BoxShown, LabelAnchor, LabelKey, LabelLayout, LabelTable, LabelsTable, PartName};
+use drypoint_scene::view::View;
+use drypoint_scene::volume::labels::LabelVolume;
+
+/// Rays along the longer side of the picture that look for structures.
+const LOOKS: usize = 160;
+
+/// The labels of a job's frames, and the places that they lead to.
+pub(super) struct LabelAnchors {
+    labels: Vec<Anchored>,
+    /// Corners of the boxes that the labels surround, in world space.
+    around: Vec<DVec3>,
+}
+
+/// A label and the place that it leads to, in world space.
+struct Anchored {
+    text: String,
+    world: DVec3,
+}
+
+impl Annotating<'_> {
+    /// The labels of a frame, beside what stands in the margin. Places are found in the first frame and stay in the world.
+    pub(super) fn labels(
+        &mut self,
+        view: &View,
+        renderer: Option<&Renderer<'_>>,
+        margin: &[Layer],
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<Layer>, Failure> {
+        if self.tables().labels.is_empty() {
+            return Ok(Vec::new());
+        }
+        if self.anchors.is_none() {
+            let labels = self.anchored(view, renderer, notes)?;
+            self.anchors = Some(LabelAnchors { labels, around: self.around(renderer) });
+        }
+        let table = self.tables().arrangement.clone().unwrap_or_default();
+        let pen = self.pen(&table.line, "labels", "labels.pen")?;
+        let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
+        let page = self.annotated_page(view, &table, anchors, obstacles(margin));
+        let LabelLayout::Hull = table.layout;
+        let found = layout(&page, self.previous.as_ref());
+        notes.extend(left_out(&found, &anchors.labels));
+        // Leader lines with their dots, then text.
+        let mut layer = Layer::new(pen);
+        let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
+        let shown = found.annotations.iter().zip(&page.annotations).zip(&anchors.labels);
+        for ((place, given), label) in shown.filter(|((place, _), _)| place.hidden.is_none()) {
+            let PlacedAnnotation { corners, leader, opacity, .. } = *place;
+            let mut points = vec![given.anchor, leader[0], leader[1]];
+            points.dedup();
+            if points.len() > 1 {
+                layer.lines.push(lines::plain(&points, width, opacity, false));
+            }
+            if dot > 0.0 {
+                layer.dots.push(Dot { at: given.anchor, world: label.world, radius: dot / 2.0, opacity });
+            }
+            let size = self.mm(table.size);
+            let at = DVec2::new(corners[0].x + gap, corners[0].y + gap + extent(&label.text, size).ascent);
+            layer.texts.push(Text { characters: label.text.clone(), at, size, opacity: 1.0 });
+        }
+        self.previous = Some(found);
+        Ok(vec![layer])
+    }
+
+    /// The page of a frame with its labels to be placed.
+    fn annotated_page(
+        &self,
+        view: &View,
+        table: &LabelsTable,
+        anchors: &LabelAnchors,
+        obstacles: Vec<[DVec2; 2]>,
+    ) -> AnnotatedPage {
+        let (size, gap) = (self.mm(table.size), self.mm(table.gap));
+        let annotations = anchors.labels.iter().map(|label| {
+            let extent = extent(&label.text, size);
+            // A point behind the eye is nowhere on the page, and the label is hidden.
+            let anchor = view.point_of(label.world).map_or(DVec2::NAN, DVec2::from);
+            Annotation {
+                anchor: self.page.place(anchor, view.size),
+                depth: -view.to_eye(label.world).z,
+                size: DVec2::new(extent.advance, extent.ascent + extent.descent) + 2.0 * gap,
+            }
+        });
+        let margin = DVec2::splat(self.page.margin);
+        AnnotatedPage {
+            annotations: annotations.collect(),
+            outline: widened(&self.on_page(view, &anchors.around), self.mm(table.distance)),
+            frame: [margin, self.page.size - margin],
+            obstacles,
+            rounds: table.rounds,
+            least_opacity: table.least_opacity,
+        }
+    }
+
+    /// The corners of what labels surround: of the visible part of the volume, of selections, and of boxes that are drawn.
+    fn around(&self, renderer: Option<&Renderer<'_>>) -> Vec<DVec3> {
+        let grid = self.job.volume.grid();
+        let visible = renderer.and_then(Renderer::visible_box).unwrap_or_else(|| grid.index_box());
+        let selections = self.job.scene.objects.iter();
+        let selections = selections.filter_map(|object| self.job.corners(&PartName::Selection(object.name.clone())));
+        let boxes = self.tables().boxes.iter().filter(|table| table.show == BoxShown::Always);
+        let boxes = boxes.filter_map(|table| self.job.corners(&table.of));
+        grid.corners_of(visible).into_iter().chain(selections.flatten()).chain(boxes.flatten()).collect()
+    }
+
+    /// The labels of the scene, with the places that they lead to.
+    fn anchored(
+        &self,
+        view: &View,
+        renderer: Option<&Renderer<'_>>,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<Anchored>, Failure> {
+        let tables = &self.tables().labels;
+        let looks = renderer.filter(|_| tables.iter().any(LabelTable::asks_what_is_seen));
+        let seen = looks.map(|renderer| SeenStructures::new(view, renderer)).unwrap_or_default();
+        let name = |id: u32| match self.job.label_names.name(id) {
+            Some(name) => name.to_owned(),
+            None => format!("label {id}"),
+        };
+        let mut found = Vec::new();
+        for (i, label) in tables.iter().enumerate() {
+            if label.from.is_some() {
+                let most = seen.largest.iter().take(label.most);
+                found.extend(most.map(|(id, world)| Anchored { text: name(*id), world: *world }));
+                continue;
+            }
+            let (text, world) = match label {
+                LabelTable { at: Some(point), .. } => (None, Some(*point)),
+                LabelTable { pixel: Some(pixel), .. } => {
+                    let picked = renderer.and_then(|renderer| renderer.pick(point_of_pixel(*pixel)));
+                    (None, picked.map(|picked| picked.world))
+                }
+                LabelTable { object: Some(part), .. } => {
+                    let corners = self.job.corners(part);
+                    (Some(part.to_string()), corners.map(|corners| corners.iter().sum::<DVec3>() / 8.0))
+                }
+                _ => {
+                    let id = self.id(label, i)?;
+                    let world = match label.anchor {
+                        LabelAnchor::Seen => seen.place(id),
+                        LabelAnchor::Centroid => {
+                            self.labels_of_data().and_then(|(labels, grid)| centroid(labels, grid, id))
+                        }
+                    };
+                    (Some(name(id)), world)
+                }
+            };
+            let text = label.text.clone().or(text).unwrap_or_default();
+            match world {
+                Some(world) => found.push(Anchored { text, world }),
+                None => notes.push(format!("the label {text:?} is left out: nothing is seen of what it names")),
+            }
+        }
+        Ok(found)
+    }
+
+    /// The id of the structure that a label names.
+    fn id(&self, label: &LabelTable, i: usize) -> Result<u32, Failure> {
+        match &label.label {
+            Some(LabelKey::Id(id)) => Ok(*id),
+            Some(LabelKey::Name(name)) => self.job.label_names.id(name).ok_or_else(|| {
+                let place = self.job.scene.given.position(&format!("label[{i}].label"));
+                let remedy = crate::job::known_label(name, &self.job.label_names);
+                Failure::new(format!("there is no label {name:?}"), place, remedy)
+            }),
+            None => Ok(0),
+        }
+    }
+
+    fn labels_of_data(&self) -> Option<(&LabelVolume, drypoint_scene::space::Grid)> {
+        let labels = self.job.label_volume()?;
+        Some((labels, labels.grid_in(self.job.volume.anatomy())))
+    }
+}
+
+/// The rectangles around lines and text, which labels do not cover.
+fn obstacles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
+    let mut all = Vec::new();
+    for layer in layers {
+        all.extend(layer.lines.iter().map(|line| {
+            let ends = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+            let half = layer.pen.width / 2.0;
+            line.vertices.iter().fold(ends, |[lo, hi], v| [lo.min(v.at - half), hi.max(v.at + half)])
+        }));
+        all.extend(layer.texts.iter().map(|text| {
+            let extent = extent(&text.characters, text.size);
+            [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
+        }));
+    }
+    all
+}
+
+/// Points whose convex hull lies a distance around that of others.
+fn widened(points: &[DVec2], distance: f64) -> Vec<DVec2> {
+    // The corners of an octagon around each point, which reach as far as a circle along the axes and the diagonals.
+    let near = distance * (std::f64::consts::SQRT_2 - 1.0);
+    let octagon = [[distance, near], [near, distance], [-near, distance], [-distance, near]].map(DVec2::from);
+    points
+        .iter()
+        .flat_map(|&point| octagon.into_iter().flat_map(move |corner| [point + corner, point - corner]))
+        .collect()
+}
+
+/// The structures of a label volume that are seen, the largest first, with a point on each.
+#[derive(Default)]
+struct SeenStructures {
+    largest: Vec<(u32, DVec3)>,
+}
+
+impl SeenStructures {
+    /// Looks along rays on a square grid over the picture.
+    fn new(view: &View, renderer: &Renderer<'_>) -> Self {
+        let [width, height] = view.size.map(|n| n as f64);
+        let step = width.max(height) / LOOKS as f64;
+        let [columns, rows] = [width, height].map(|side| ((side / step) as usize).max(1));
+        let at = |n: usize, side: f64, steps: usize| (n as f64 + 0.5) * side / steps as f64;
+        let picked: Vec<Option<Picked>> = parallel::map(columns * rows, &|i| {
+            renderer.pick([at(i % columns, width, columns), at(i / columns, height, rows)])
+        });
+        let id = |picked: &Option<Picked>| picked.and_then(|picked| picked.label).filter(|id| *id != 0);
+        let ids: Vec<Option<u32>> = picked.iter().map(id).collect();
+        let regions = inner_points(&ids, columns).into_iter();
+        let largest = regions.filter_map(|region| Some((region.id, picked[region.inner]?.world)));
+        Self { largest: largest.collect() }
+    }
+
+    fn place(&self, id: u32) -> Option<DVec3> {
+        self.largest.iter().find(|(seen, _)| *seen == id).map(|(_, world)| *world)
+    }
+}
+
+/// The centroid of the voxels of a label, in world space. Returns none if the label has no voxel.
+fn centroid(labels: &LabelVolume, grid: drypoint_scene::space::Grid, id: u32) -> Option<DVec3> {
+    let [nx, ny, nz] = grid.dims();
+    let slices = parallel::map(nz, &|z| {
+        let (mut sum, mut n) = (DVec3::ZERO, 0u64);
+        for i in (0..nx * ny).filter(|i| labels.id(z * nx * ny + i) == id) {
+            sum += DVec3::new((i % nx) as f64, (i / nx) as f64, z as f64);
+            n += 1;
+        }
+        (sum, n)
+    });
+    let (sum, n) = slices.into_iter().fold((DVec3::ZERO, 0), |(sum, n), (s, m)| (sum + s, n + m));
+    (n > 0).then(|| grid.to_world(sum / n as f64))
+}
+
+/// The labels of a layout that are left out, a sentence each.
+fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
+    let sentence = |(place, label): (&PlacedAnnotation, &Anchored)| {
+        let why = match place.hidden? {
+            Hidden::Overlap(other) => format!("it would overlap {:?}", labels.get(other)?.text),
+            Hidden::Crossing(other) => format!("its leader line would cross that of {:?}", labels.get(other)?.text),
+            Hidden::OutsideFrame => "there is no room for it in the picture".into(),
+            Hidden::Invalid => "what it names is not before the eye".into(),
+        };
+        Some(format!("the label {:?} is left out: {why}", label.text))
+    };
+    found.annotations.iter().zip(labels).filter_map(sentence).collect()
+}
