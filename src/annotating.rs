@@ -7,6 +7,7 @@ mod margin;
 
 use crate::Failure;
 use crate::job::{Job, RenderTarget, pen_named};
+use drypoint_output::text::{font::missing_characters, missing_strokes};
 use drypoint_reference::ray::Renderer;
 use drypoint_reference::volumeshop::conventions::{ArrowCurve, Fan, edge_points, edges};
 use drypoint_scene::annotations::AnnotationLayout;
@@ -36,7 +37,7 @@ pub(crate) struct Annotating<'a> {
 pub(crate) struct AnnotationFrame {
     /// The layers, from the lowest.
     pub(crate) layers: Vec<Layer>,
-    /// What was left out, a sentence each.
+    /// Labels and characters that are left out, a sentence each.
     pub(crate) notes: Vec<String>,
 }
 
@@ -63,9 +64,20 @@ impl<'a> Annotating<'a> {
         let margin = self.margin(view)?;
         layers.extend(self.labels(view, renderer, &margin, &mut notes)?);
         layers.extend(margin);
+        notes.extend(self.missing(&layers));
         let mut marks = Marks { page: self.page, layers };
         marks.settle();
         Ok(AnnotationFrame { layers: marks.layers, notes })
+    }
+
+    /// The characters that no letters are drawn for, in a sentence; none if all are.
+    fn missing(&self, layers: &[Layer]) -> Option<String> {
+        let texts = layers.iter().flat_map(|layer| &layer.texts).map(|text| text.characters.as_str());
+        let all = texts.collect::<Vec<_>>().concat();
+        let is_plotted = self.job.scene.page.as_ref().is_some_and(|page| page.plotter);
+        let missing = if is_plotted { missing_strokes(&all) } else { missing_characters(&all) };
+        let missing: String = missing.into_iter().collect();
+        (!missing.is_empty()).then(|| format!("boxes stand for the characters {missing:?}, which the letters lack"))
     }
 
     fn tables(&self) -> &'a Annotations {

@@ -26,6 +26,7 @@
 //! ```
 
 mod assets;
+mod bare_scene;
 mod failures;
 mod focus;
 mod iso;
@@ -40,9 +41,9 @@ mod target;
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};
 use assets::Assets;
+pub use bare_scene::{bare, bare_for};
 use drypoint_output::{exr, png};
 use drypoint_reference::ray::{RenderError, Renderer};
-use drypoint_reference::suggest;
 use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::{Rgba, premultiply};
 use drypoint_scene::counts::Counts;
@@ -55,9 +56,7 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
-use drypoint_scene::tables::{
-    Background, Ids, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeSource, VolumeTable,
-};
+use drypoint_scene::tables::{Background, Ids, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeTable};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -70,10 +69,10 @@ use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
 pub use painting::Painting;
 pub(crate) use provenance::provenance;
-use room::{no_room_for_content, room_for_halos, room_for_table};
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes, room_for_picture};
+use room::{room_for_halos, room_for_table};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 pub use target::RenderTarget;
 use target::{calls_for_function, plan_for, something_is_drawn, values_of_nodes};
@@ -462,39 +461,6 @@ impl Job {
         };
         written.map_err(|error| Failure::picture(&error, path.display()))
     }
-}
-
-/// Returns a scene for a bare volume: an automatic function, a camera that frames the content in a picture of `size`
-/// pixels, a pleasant style. Voxels read for it go to `counts`.
-///
-/// # Errors
-/// Memory that the budget does not allow.
-pub fn bare(path: PathBuf, volume: &Volume, size: [usize; 2], counts: &mut Counts) -> Result<Scene, Failure> {
-    let place = path.display().to_string();
-    suggest::scene(VolumeSource::File { path, raw: None }, volume, size, counts)
-        .map_err(|no_room| no_room_for_content(volume, place, &no_room))
-}
-
-/// Returns a scene for a bare volume with the tables of a preset: a function, an iso-surface, or the camera alone,
-/// before the background of the preset.
-///
-/// # Errors
-/// Memory that the budget does not allow.
-pub fn bare_for(
-    preset: &Scene,
-    path: PathBuf,
-    volume: &Volume,
-    size: [usize; 2],
-    counts: &mut Counts,
-) -> Result<Scene, Failure> {
-    let place = path.display().to_string();
-    let source = VolumeSource::File { path, raw: None };
-    let (transfer, surface, picture) = (preset.transfer.clone(), preset.surface.clone(), preset.picture.clone());
-    // Stipples and their outlines lie on one surface of the volume.
-    let stipples = preset.stipples.clone().filter(|stipples| stipples.iso.is_some());
-    let outlines = preset.outlines.clone().filter(|_| stipples.is_some());
-    let scene = Scene { transfer, surface, picture, stipples, outlines, ..Scene::for_volume(source) };
-    suggest::fill(scene, volume, size, counts).map_err(|no_room| no_room_for_content(volume, place, &no_room))
 }
 
 /// Returns the colour behind the volume, if it is one.

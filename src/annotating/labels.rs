@@ -11,6 +11,7 @@ use drypoint_scene::annotations::{AnnotatedPage, Annotation, AnnotationLayout, H
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Text};
 use drypoint_scene::parallel;
+use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{BoxShown, LabelAnchor, LabelKey, LabelLayout, LabelTable, LabelsTable, PartName};
 use drypoint_scene::view::View;
 use drypoint_scene::volume::labels::LabelVolume;
@@ -181,7 +182,7 @@ impl Annotating<'_> {
         }
     }
 
-    fn labels_of_data(&self) -> Option<(&LabelVolume, drypoint_scene::space::Grid)> {
+    fn labels_of_data(&self) -> Option<(&LabelVolume, Grid)> {
         let labels = self.job.label_volume()?;
         Some((labels, labels.grid_in(self.job.volume.anatomy())))
     }
@@ -244,7 +245,7 @@ impl SeenStructures {
 }
 
 /// The centroid of the voxels of a label, in world space. Returns none if the label has no voxel.
-fn centroid(labels: &LabelVolume, grid: drypoint_scene::space::Grid, id: u32) -> Option<DVec3> {
+fn centroid(labels: &LabelVolume, grid: Grid, id: u32) -> Option<DVec3> {
     let [nx, ny, nz] = grid.dims();
     let slices = parallel::map(nz, &|z| {
         let (mut sum, mut n) = (DVec3::ZERO, 0u64);

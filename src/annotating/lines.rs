@@ -23,7 +23,7 @@ pub(super) enum Course {
     Curved,
 }
 
-/// What lies before lines of one pen.
+/// The look of lines of one pen behind the volume.
 pub(super) struct Seen<'a> {
     pub(super) page: &'a Page,
     pub(super) view: &'a View,

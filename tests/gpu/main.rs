@@ -1,6 +1,7 @@
 //! The shaders against the reference ([GPU-1] … [GPU-4]). Without an adapter the tests say 'skipped: no adapter'; with
 //! DRYPOINT_REQUIRE_GPU=1 they fail.
 
+mod annotations;
 mod cost;
 mod double;
 mod field;

@@ -101,11 +101,12 @@ fn every_format_takes_annotations() {
     assert!(!text.contains("<text") && text.contains("-labels "));
 }
 
-/// Frames of an orbit keep the labels' places in the world, and labels that have no room are told.
 #[test]
-fn labels_without_room_are_told() {
+fn labels_without_room_and_missing_characters_are_told() {
     let folder = tempfile::tempdir().unwrap();
     let close = SCENE.replace("height = 90", "height = 30");
     let notes = write(&close, &folder.path().join("a.png"));
     assert!(notes.iter().any(|note| note.ends_with("there is no room for it in the picture")), "{notes:?}");
+    let strange = write(&SCENE.replace("picked", "picked \u{732b}"), &folder.path().join("a.png"));
+    assert_eq!(strange, ["boxes stand for the characters \"\u{732b}\", which the letters lack"]);
 }

@@ -1,5 +1,5 @@
-//! What figures have beside the picture: a scale bar, the directions of the data, and the points that
-//! labels of structures lead to.
+//! Parts of figures beside the picture: scale bars, the directions of the data, and the points that labels of structures
+//! lead to.
 
 mod directions;
 mod inner_points;

@@ -58,7 +58,7 @@ pub struct Scene {
     pub surface: Option<Surface>,
     /// Opaque meshes, in their order.
     pub meshes: Vec<MeshTable>,
-    /// What is laid over the picture.
+    /// Boxes, arrows, fans, labels, scale bar and directions over the picture.
     pub annotations: Annotations,
     /// The keys that the scene gives itself, and their places. Comparisons of scenes ignore this field.
     pub given: Given,

@@ -37,7 +37,7 @@ pub(super) fn picture(mut scene: Scene) -> Result<(Picture, Encode), String> {
     if is_map {
         scene.picture.background = Background::None;
     }
-    if scene.has_marks() {
+    if scene.draws_on_page() {
         let colored = scene.draws_volume() && scene.stipples.is_none()
             || scene.hatching.as_ref().is_some_and(|hatching| hatching.lighting.is_some());
         let black = scene.pens.iter().all(|pen| pen.color[..3].iter().all(|c| *c == pen.color[0]));

@@ -30,7 +30,7 @@ const PAINTED: (&str, &str) =
     ("intersection", "[{ object = \"a\", dabs = [{ at = [1, 2], width = 3, color = \"red\" }] }]");
 const MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\" }]");
 const TURNED_MESH: (&str, &str) = ("mesh", "[{ file = \"a.ply\", rotate = { angle = 10 } }]");
-const BOX: (&str, &str) = ("box", "[{ occluded = true }]");
+const EDGES: (&str, &str) = ("box", "[{ occluded = true }]");
 const ARROW: (&str, &str) = ("arrow", "[{ from = [0, 0, 0], to = [1, 1, 1] }]");
 const FAN: (&str, &str) = ("fan", "[{ from = \"background\", to = \"a\" }]");
 const LABEL: (&str, &str) = ("label", "[{ text = \"a\" }]");
@@ -399,12 +399,12 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("surface.silhouette.offset", &[SURFACE], "0.3"),
     ("surface.view_opacity", &[SURFACE], "2"),
     ("box", &[], "[{ occluded = true }]"),
-    ("box[0].of", &[BOX, TWO], "a"),
-    ("box[0].show", &[BOX], "draft"),
-    ("box[0].occluded", &[BOX], "false"),
-    ("box[0].color", &[BOX], "red"),
-    ("box[0].width", &[BOX], "2 px"),
-    ("box[0].pen", &[BOX], "red"),
+    ("box[0].of", &[EDGES, TWO], "a"),
+    ("box[0].show", &[EDGES], "draft"),
+    ("box[0].occluded", &[EDGES], "false"),
+    ("box[0].color", &[EDGES], "red"),
+    ("box[0].width", &[EDGES], "2 px"),
+    ("box[0].pen", &[EDGES], "red"),
     ("arrow", &[], "[{ from = [0, 0, 0], to = [1, 1, 1] }]"),
     ("arrow[0].from", &[ARROW, TWO], "a"),
     ("arrow[0].to", &[ARROW], "[4, 5, 6]"),

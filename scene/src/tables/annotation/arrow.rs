@@ -17,7 +17,7 @@ table! {
         to: Option<AnnotatedPlace> = None, key("VS-8", Places).absent("the selection of the only object that is moved");
         /// β: how far the arrow bends, as a multiple of the way in depth between its ends.
         bend: f64 = 0.5, key("VS-8", Number { bounds: Bounds::NOT_NEGATIVE, unit: "" });
-        /// Where the arrow ends at a part.
+        /// The ends of the arrow at parts.
         ends: ArrowEnds = ArrowEnds::Centre, key("VS-8", ArrowEnds::KIND);
         /// Length of the arrow's head.
         head: Length = Length::Millimetres(4.0), key("VS-8", Lengths { on: On::Page, bounds: Bounds::NOT_NEGATIVE });

@@ -20,7 +20,7 @@ table! {
         /// Colour of the area between the outlines.
         ///
         /// Linear, straight.
-        fill: Rgba = [0.0, 0.0, 0.0, 0.1], key("VS-8", Colors);
+        fill: Rgba = [0.0, 0.0, 0.0, 26.0 / 255.0], key("VS-8", Colors);
         /// The line of the outlines.
         line: LineStyle = LineStyle::black(0.25);
         /// Colour of the outlines.
