@@ -108,5 +108,7 @@ fn labels_without_room_and_missing_characters_are_told() {
     let notes = write(&close, &folder.path().join("a.png"));
     assert!(notes.iter().any(|note| note.ends_with("there is no room for it in the picture")), "{notes:?}");
     let strange = write(&SCENE.replace("picked", "picked \u{732b}"), &folder.path().join("a.png"));
-    assert_eq!(strange, ["boxes stand for the characters \"\u{732b}\", which the letters lack"]);
+    // The box is wider than the letters, and the label may meet another one.
+    let last = strange.last().map(String::as_str);
+    assert_eq!(last, Some("boxes stand for the characters \"\u{732b}\", which the letters lack"));
 }
