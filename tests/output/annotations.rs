@@ -32,6 +32,8 @@ move = [0, 0, 22]
 ends = "box"
 [[fan]]
 shape = "circle"
+[labels]
+size = "3.2 mm"
 [scale_bar]
 [orientation]
 triad = true

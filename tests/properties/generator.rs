@@ -14,9 +14,9 @@ use drypoint::scene::space::Grid;
 use drypoint::scene::style::{self as styles_of, Style, Theme};
 use drypoint::scene::tables::{
     Background, BlendSpace, Camera, Contours, GradientEstimator, GradientRange, HessianEstimator, Ids, Iso, Kappa,
-    Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PenSettings, PhantomSource,
-    Projection, RaysPerPixel, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame, StepAlong,
-    StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit,
+    Kernel, Length, LightDirection, Mix, NormalSide, Number, Orbit, Outside, PageSettings, PageText, PenSettings,
+    PhantomSource, Projection, RaysPerPixel, Scene, Shading, ShadingModel, SignFlip, SilhouetteShading, SphereFrame,
+    StepAlong, StyleMipmaps, StyleSource, Styles, Surface, SurfaceLook, Table, Tone, ToonShading, Transparency, Unit,
     VolumeSource,
 };
 use drypoint::scene::volume::{Volume, VoxelType, Voxels};
@@ -266,7 +266,7 @@ fn paper(r: &mut Random, scene: &mut Scene) {
     scene.page = r.pick(&[
         None,
         Some(PageSettings { margin, ..PageSettings::default() }),
-        Some(PageSettings { margin, plotter: true, ..PageSettings::default() }),
+        Some(PageSettings { margin, plotter: true, text: PageText::Outlines }),
     ]);
     let pen = |name: &str, r: &mut Random| PenSettings {
         name: name.into(),
