@@ -13,6 +13,7 @@ pub struct Annotation {
     /// Eye depth of the anchor. Labels of nearer anchors have priority.
     pub depth: f64,
     /// Width and height of the label's box, including the margin that separates it from other boxes and the hull.
+    /// Both are positive.
     pub size: DVec2,
 }
 
@@ -42,22 +43,29 @@ pub enum Hidden {
     Crossing(usize),
     /// Its anchor, its box or its leader line leaves the frame, or its box covers an obstacle.
     OutsideFrame,
-    /// One of its numbers is not finite, or its size is negative.
+    /// Columns only: the boxes of nearer labels fill both columns, or the only place left covers its anchor.
+    NoRoom,
+    /// The numbers of the page are too large or too small to compute with.
+    OutOfRange,
+    /// One of its numbers is not finite, or its size is not positive.
     Invalid,
 }
 
 /// A label's place. A label without [`home`](Self::home) has all points at its anchor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlacedAnnotation {
-    /// t ∈ [0, 1): the label's direction from the hull's centroid, in turns from x towards y.
+    /// t ∈ [0, 1): direction of the first point of [`leader`](Self::leader), in turns from x towards y. It is seen from
+    /// the hull's centroid, in columns from the middle of the hull's bounding box.
     pub t: f64,
-    /// t of the hull point near the anchor, where the label stands unless a conflict moves it. The next layout starts
-    /// from it. None if a label is [`Hidden::Invalid`] or its anchor is outside the frame.
+    /// t of the label's place if no conflict moves the label: the hull point near the anchor, in columns the bend level
+    /// with the anchor. The next layout starts from it. In columns t of the left one is from ¼ to ¾. None if the label is
+    /// [`Hidden::Invalid`] or [`Hidden::OutOfRange`], if its anchor is outside the frame, or if its box is too large for
+    /// both columns.
     pub home: Option<f64>,
     /// Lower and upper corner of the box.
     pub corners: [DVec2; 2],
-    /// The ends of the leader line's second segment, at the hull and at the box. The first segment joins the anchor to
-    /// the hull.
+    /// The ends of the leader line's second segment: its bend and its end at the box. The first segment joins the anchor
+    /// to the bend, which is a point of the hull, or in columns a point before the column.
     pub leader: [DVec2; 2],
     /// Opacity of the leader line: 1 at the nearest anchor, o_min at the farthest.
     pub opacity: f64,
@@ -69,13 +77,15 @@ pub struct PlacedAnnotation {
 /// places in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relocation {
-    /// Two labels exchanged their hull points, because their lines crossed or both anchors are nearer now.
+    /// Two labels exchanged their hull points, because their lines crossed or both anchors are nearer now. In columns,
+    /// they exchanged their order in one column.
     Exchange(usize, usize),
     /// A label moved along the hull out of a conflict.
     Nudge(usize),
     /// A label moved back towards its home, because a conflict ended.
     Return(usize),
-    /// A label moved to a hull point that is nearer by more than the margin that keeps it on its side.
+    /// A label moved to a hull point that is nearer by more than the margin that keeps it on its side. In columns, it
+    /// moved to the other column.
     ChangeOfSide(usize),
 }
 
@@ -85,6 +95,6 @@ pub struct AnnotationLayout {
     /// The places.
     pub annotations: Vec<PlacedAnnotation>,
     /// The relocations since the previous layout, each once, in the order in which they were first made. Without a
-    /// previous layout, the relocations from the nearest hull points.
+    /// previous layout, the relocations from the nearest hull points, or from columns in the order of the anchors.
     pub relocations: Vec<Relocation>,
 }

@@ -266,6 +266,8 @@ fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
             Hidden::Overlap(other) => format!("it would overlap {:?}", labels.get(other)?.text),
             Hidden::Crossing(other) => format!("its leader line would cross that of {:?}", labels.get(other)?.text),
             Hidden::OutsideFrame => "there is no room for it in the picture".into(),
+            Hidden::NoRoom => "nearer labels leave no room for it".into(),
+            Hidden::OutOfRange => "the picture's lengths are too large or too small".into(),
             Hidden::Invalid => "what it names is not before the eye".into(),
         };
         Some(format!("the label {:?} is left out: {why}", label.text))

@@ -122,7 +122,7 @@ fn nearer(point: &HullPoint, than: &HullPoint, to: DVec2) -> bool {
 }
 
 /// The direction of a vector in turns, in [0, 1).
-fn turns(v: DVec2) -> f64 {
+pub(super) fn turns(v: DVec2) -> f64 {
     wrapped(math::atan2(v.y, v.x) / TAU)
 }
 

@@ -1,7 +1,8 @@
 //! The layout of labels: rounds of exchanges and nudges, then greedy keeping ([VS-10]).
 
 use super::hull::{RadialHull, wrapped};
-use super::place::{Place, within};
+use super::place::Place;
+use super::segments::within;
 use drypoint_scene::annotations::{AnnotatedPage, Annotation, AnnotationLayout, Hidden, PlacedAnnotation, Relocation};
 use drypoint_scene::glam::DVec2;
 use std::ops::Range;
@@ -22,8 +23,6 @@ const MARGIN: f64 = 0.05;
 ///
 /// - Anchors in the frame are points of the hull, so first segments of leader lines lie in the hull and boxes lie
 ///   outside it. Points that are not finite are left out.
-/// - Labels of equal depth are in the order of their anchors, then of their sizes. Equal labels are in the order of the
-///   list.
 /// - A label's distance from its anchor is the length of the leader line up to the hull.
 /// - Nudges lead towards larger t. A label's predecessor is the label before it in the order of t, which begins after
 ///   the widest gap.
@@ -37,15 +36,7 @@ const MARGIN: f64 = 0.05;
 pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> AnnotationLayout {
     let all = &page.annotations;
     let mut places: Vec<PlacedAnnotation> = all.iter().map(|annotation| unplaced(annotation, page.frame)).collect();
-    let mut order: Vec<usize> = (0..all.len()).filter(|&i| places[i].hidden.is_none()).collect();
-    let key = |i: usize| {
-        let Annotation { depth, anchor, size } = all[i];
-        [depth, anchor.x, anchor.y, size.x, size.y]
-    };
-    order.sort_by(|&i, &j| {
-        let mut orders = key(i).into_iter().zip(key(j)).map(|(a, b)| a.total_cmp(&b));
-        orders.find(|order| order.is_ne()).unwrap_or(i.cmp(&j))
-    });
+    let order = by_depth(all, &places);
     let (Some(&nearest), Some(&farthest)) = (order.first(), order.last()) else {
         return AnnotationLayout { annotations: places, relocations: Vec::new() };
     };
@@ -80,17 +71,28 @@ pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Anno
 }
 
 /// A label at its anchor. It is hidden if it is not valid, or its anchor is outside the frame.
-fn unplaced(annotation: &Annotation, frame: [DVec2; 2]) -> PlacedAnnotation {
+pub(super) fn unplaced(annotation: &Annotation, frame: [DVec2; 2]) -> PlacedAnnotation {
     let Annotation { anchor, depth, size } = *annotation;
-    let is_valid = anchor.is_finite() && depth.is_finite() && size.is_finite() && size.min_element() >= 0.0;
+    let is_valid = anchor.is_finite() && depth.is_finite() && size.is_finite() && size.min_element() > 0.0;
     let hidden =
         if is_valid { (!within(anchor, frame)).then_some(Hidden::OutsideFrame) } else { Some(Hidden::Invalid) };
     PlacedAnnotation { t: 0.0, home: None, corners: [anchor; 2], leader: [anchor; 2], opacity: 0.0, hidden }
 }
 
+/// The labels that are not hidden, from the nearest anchor to the farthest. Labels of equal depth are in the order of the
+/// list.
+pub(super) fn by_depth(all: &[Annotation], places: &[PlacedAnnotation]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..all.len()).filter(|&i| places[i].hidden.is_none()).collect();
+    // −0 is as near as 0.
+    order.sort_by(|&i, &j| (all[i].depth + 0.0).total_cmp(&(all[j].depth + 0.0)));
+    order
+}
+
 /// The opacity of the leader line of an anchor at a depth between the nearest and the farthest one.
-fn opacity(depth: f64, [near, far]: [f64; 2], least: f64) -> f64 {
-    if far > near { 1.0 - (1.0 - least) * ((depth - near) / (far - near)) } else { 1.0 }
+pub(super) fn opacity(depth: f64, [near, far]: [f64; 2], least: f64) -> f64 {
+    // Halves keep the differences finite.
+    let way = |depth: f64| depth / 2.0 - near / 2.0;
+    if far > near { 1.0 - (1.0 - least) * (way(depth) / way(far)) } else { 1.0 }
 }
 
 /// A label on its way to a place.

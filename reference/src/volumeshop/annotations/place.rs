@@ -1,6 +1,7 @@
 //! A label at a hull point: its box, its leader line, and where two labels meet.
 
 use super::hull::{HullPoint, RadialHull};
+use super::segments::{meet, overlap, passes, within};
 use drypoint_scene::annotations::Annotation;
 use drypoint_scene::glam::DVec2;
 
@@ -48,7 +49,7 @@ impl Place {
 
     /// Whether the insides of the box and of a rectangle overlap.
     pub(super) fn covers(&self, [lower, upper]: [DVec2; 2]) -> bool {
-        self.corners[0].cmplt(upper).all() && lower.cmplt(self.corners[1]).all()
+        overlap(self.corners, [lower, upper])
     }
 
     /// Whether the leader line of one of two labels runs through the inside of the other one's box. Boxes lie outside
@@ -62,36 +63,6 @@ impl Place {
     /// First segments lie in the hull. Second segments are outward normals of a convex curve, which never meet. So first
     /// segments decide.
     pub(super) fn crosses(&self, other: &Self) -> bool {
-        let ([a, b], [c, d]) = ([self.anchor, self.hull.at], [other.anchor, other.hull.at]);
-        if a == c {
-            return false;
-        }
-        // Each line has the other segment's ends on both sides. On one line, bounding boxes decide.
-        let side = |from: DVec2, to: DVec2, point: DVec2| (to - from).perp_dot(point - from);
-        let straddles = |x: f64, y: f64| !(x > 0.0 && y > 0.0 || x < 0.0 && y < 0.0);
-        a.min(b).cmple(c.max(d)).all()
-            && c.min(d).cmple(a.max(b)).all()
-            && straddles(side(a, b, c), side(a, b, d))
-            && straddles(side(c, d, a), side(c, d, b))
+        self.anchor != other.anchor && meet([self.anchor, self.hull.at], [other.anchor, other.hull.at])
     }
-}
-
-/// Whether a point lies in a closed rectangle.
-pub(super) fn within(point: DVec2, [lower, upper]: [DVec2; 2]) -> bool {
-    point.cmpge(lower).all() && point.cmple(upper).all()
-}
-
-/// Whether a segment passes through the inside of a rectangle.
-fn passes([from, to]: [DVec2; 2], [lower, upper]: [DVec2; 2]) -> bool {
-    let (mut enter, mut leave) = (0.0f64, 1.0f64);
-    for axis in 0..2 {
-        let (start, way) = (from[axis], to[axis] - from[axis]);
-        let [a, b] = [(lower[axis] - start) / way, (upper[axis] - start) / way];
-        if way != 0.0 {
-            (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
-        } else if start <= lower[axis] || start >= upper[axis] {
-            return false;
-        }
-    }
-    enter < leave
 }
