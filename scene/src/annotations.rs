@@ -28,7 +28,7 @@ pub struct AnnotatedPage {
     pub frame: [DVec2; 2],
     /// Rectangles that labels do not cover, each by its lower and upper corner.
     pub obstacles: Vec<[DVec2; 2]>,
-    /// The largest number of rounds in which conflicts are resolved.
+    /// The largest number of rounds in which conflicts are resolved. At most 1024 are made.
     pub rounds: usize,
     /// o_min: opacity of the leader line of the farthest anchor.
     pub least_opacity: f64,
@@ -74,7 +74,7 @@ pub struct PlacedAnnotation {
 }
 
 /// A change of a label's t that does not follow from the motion of its anchor and the hull. Labels are named by their
-/// places in the list.
+/// places in the list. Labels that are hidden are not named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relocation {
     /// Two labels exchanged their hull points, because their lines crossed or both anchors are nearer now. In columns,
@@ -84,8 +84,8 @@ pub enum Relocation {
     Nudge(usize),
     /// A label moved back towards its home, because a conflict ended.
     Return(usize),
-    /// A label moved to a hull point that is nearer by more than the margin that keeps it on its side. In columns, it
-    /// moved to the other column.
+    /// A label moved to a hull point that is nearer by more than the margin that keeps it on its side, or its home moved
+    /// by more than this margin in one step. In columns, it moved to the other column.
     ChangeOfSide(usize),
 }
 
@@ -94,7 +94,7 @@ pub enum Relocation {
 pub struct AnnotationLayout {
     /// The places.
     pub annotations: Vec<PlacedAnnotation>,
-    /// The relocations since the previous layout, each once, in the order in which they were first made. Without a
-    /// previous layout, the relocations from the nearest hull points, or from columns in the order of the anchors.
+    /// The relocations since the previous layout, each once. Without a previous layout, the relocations from the nearest
+    /// hull points, or from columns in the order of the anchors.
     pub relocations: Vec<Relocation>,
 }

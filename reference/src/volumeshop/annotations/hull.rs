@@ -67,7 +67,8 @@ impl RadialHull {
         HullPoint { t, at, normal }
     }
 
-    /// The point nearest to a point of the hull's inside. Of several, the one with the least t counts.
+    /// The point nearest to a point of the hull's inside. Of several, the one on the first edge counts, from the
+    /// vertex with the least t.
     pub(super) fn nearest(&self, to: DVec2) -> HullPoint {
         let feet = (1..self.vertices.len()).map(|edge| self.foot(edge, to));
         feet.fold(self.foot(0, to), |best, foot| if nearer(&foot, &best, to) { foot } else { best })
@@ -78,16 +79,21 @@ impl RadialHull {
         let n = self.vertices.len();
         let mut edge = self.edge(t);
         let mut best = self.foot(edge, to);
+        // A foot inside an edge is a local minimum. From a foot at an end of the edge, the walk goes on beyond that end.
         // Each step is nearer than the one before, so no edge comes twice.
         for _ in 0..n {
-            let feet = [(edge + 1) % n, (edge + n - 1) % n].map(|edge| (edge, self.foot(edge, to)));
-            let Some(&(next, foot)) = feet.iter().find(|(_, foot)| nearer(foot, &best, to)) else { break };
+            let s = self.along(edge, to);
+            let next = if s >= 1.0 { (edge + 1) % n } else { (edge + n - 1) % n };
+            let foot = self.foot(next, to);
+            if s > 0.0 && s < 1.0 || !nearer(&foot, &best, to) {
+                break;
+            }
             (edge, best) = (next, foot);
         }
         best
     }
 
-    /// How far a box with its centre at a point of the hull has to move along the normal until it misses the hull.
+    /// The distance by which a box with its centre at a point of the hull moves along the normal until it misses the hull.
     ///
     /// Convex shapes are apart if a line along one of their edges separates them. The box is beyond the edge with the
     /// normal m once m·(p + s·n − v) is the box's half extent along m, where v is a vertex of the edge.
@@ -106,11 +112,17 @@ impl RadialHull {
         (before + self.turns.len() - 1) % self.turns.len()
     }
 
+    /// The foot of the perpendicular from a point to an edge: 0 at the edge's start, 1 at its end.
+    fn along(&self, edge: usize, to: DVec2) -> f64 {
+        let (a, b) = (self.vertices[edge], self.vertices[(edge + 1) % self.vertices.len()]);
+        (to - a).dot(b - a) / (b - a).length_squared()
+    }
+
     /// The point of an edge nearest to a point. An end of the edge is the vertex itself.
     fn foot(&self, edge: usize, to: DVec2) -> HullPoint {
         let next = (edge + 1) % self.vertices.len();
         let (a, b) = (self.vertices[edge], self.vertices[next]);
-        let s = (to - a).dot(b - a) / (b - a).length_squared();
+        let s = self.along(edge, to);
         let (edge, at) = if s >= 1.0 { (next, b) } else { (edge, if s > 0.0 { a + (b - a) * s } else { a }) };
         HullPoint { t: turns(at - self.centroid), at, normal: self.normals[edge] }
     }

@@ -9,13 +9,18 @@ use std::ops::Range;
 
 /// The step of a nudge, in turns.
 const NUDGE: f64 = 1.0 / 256.0;
-/// The largest number of nudges from its home for a label that still meets another one after the rounds.
-const NUDGES: usize = 32;
+/// The largest number of nudges from its home, to each side, for a label that still meets another one after the rounds.
+const NUDGES: i32 = 32;
+/// The largest number of rounds that are made, whatever the page asks for. Rounds of some pages never end.
+pub(super) const MOST_ROUNDS: usize = 1024;
 /// The least mean width of the hull, as a fraction of the frame's diagonal.
 const LEAST_WIDTH: f64 = 1.0 / 1024.0;
-/// The margin that keeps a label on its side: a fraction of the hull's diameter. A motion of at most this fraction of a
-/// turn stays on a side.
+/// The margin that keeps a label on its side ([VS-10]): a fraction of the hull's diameter. A home that moves farther
+/// along the hull is reported, too.
 const MARGIN: f64 = 0.05;
+
+/// The largest motion of a home that is rounding, in turns.
+const ROUNDING: f64 = 1e-12;
 
 /// Places the labels of a page.
 ///
@@ -24,15 +29,17 @@ const MARGIN: f64 = 0.05;
 /// - Anchors in the frame are points of the hull, so first segments of leader lines lie in the hull and boxes lie
 ///   outside it. Points that are not finite are left out.
 /// - A label's distance from its anchor is the length of the leader line up to the hull.
-/// - Nudges lead towards larger t. A label's predecessor is the label before it in the order of t, which begins after
-///   the widest gap.
+/// - Nudges of a round lead towards larger t. A label's predecessor is the label before it in the order of t, which
+///   begins after the widest gap.
 /// - An exchange that brings two labels nearer is made only if it adds no conflict.
-/// - A label that meets a nearer one after the rounds tries its home and the places up to an eighth of a turn after
-///   it. A label that is hidden stands at its home, and takes no part in the rounds of the next layout.
-/// - Labels that are kept then return towards their homes and exchange their places while that is nearer and free. So
-///   a layout from this one changes nothing.
+/// - A label that meets a nearer one after the rounds tries its home and the places up to an eighth of a turn before and
+///   after it, nearest first. A label that is hidden stands at its home.
+/// - Labels that are kept then return towards their homes and exchange their places while that is nearer and free.
 /// - The second segment of a leader line lies on the normal through the box's centre. The line is straight while the
 ///   label is at its home.
+///
+/// The previous layout gives the homes and nothing else, so a layout from a finished one changes nothing. A home follows
+/// the local minimum of the distance that it leads to. So a label that was hidden has as good a chance as the others.
 pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> AnnotationLayout {
     let all = &page.annotations;
     let mut places: Vec<PlacedAnnotation> = all.iter().map(|annotation| unplaced(annotation, page.frame)).collect();
@@ -44,7 +51,8 @@ pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Anno
     let points = points.chain(order.iter().map(|&i| all[i].anchor)).collect();
     let Some(hull) = RadialHull::new(points, page.frame[0].distance(page.frame[1]) * LEAST_WIDTH) else {
         for i in order {
-            places[i].hidden = Some(Hidden::OutsideFrame);
+            let is_large = all[i].size.cmpgt(page.frame[1] - page.frame[0]).any();
+            places[i].hidden = Some(if is_large { Hidden::OutsideFrame } else { Hidden::OutOfRange });
         }
         return AnnotationLayout { annotations: places, relocations: Vec::new() };
     };
@@ -52,22 +60,18 @@ pub fn layout(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Anno
         let previous = previous.and_then(|layout| layout.annotations.get(i));
         Label::new(i, all[i], previous, &hull)
     });
-    let mut table = Table {
-        labels: labels.collect(),
-        hull,
-        frame: page.frame,
-        obstacles: &page.obstacles,
-        relocations: Vec::new(),
-    };
-    table.resolve(page.rounds);
-    table.keep(page.rounds);
+    let mut table = Table { labels: labels.collect(), hull, frame: page.frame, obstacles: &page.obstacles };
+    let rounds = page.rounds.min(MOST_ROUNDS);
+    table.resolve(rounds);
+    table.keep(rounds);
+    let relocations = table.relocations();
     for Label { index, given, home, place, hidden, .. } in table.labels {
         let opacity = opacity(given.depth, [nearest, farthest].map(|i| all[i].depth), page.least_opacity);
         let leader = [place.hull.at, place.end];
         places[index] =
             PlacedAnnotation { t: place.hull.t, home: Some(home), corners: place.corners, leader, opacity, hidden };
     }
-    AnnotationLayout { annotations: places, relocations: table.relocations }
+    AnnotationLayout { annotations: places, relocations }
 }
 
 /// A label at its anchor. It is hidden if it is not valid, or its anchor is outside the frame.
@@ -104,31 +108,34 @@ struct Label {
     home: f64,
     place: Place,
     hidden: Option<Hidden>,
-    /// Whether its home moved to another side.
+    /// Whether its home moved to another side, or far along the hull.
     changed_side: bool,
+    /// Its distance from its home in the previous layout, in turns. 0 without a previous layout.
+    previous_offset: f64,
+    /// The label with which it exchanged its hull point last, as its place in the list.
+    exchanged: Option<usize>,
 }
 
 impl Label {
-    /// A label before the rounds: at its home, or moved from it as in the previous layout.
+    /// A label before the rounds, at its home.
     fn new(index: usize, given: Annotation, previous: Option<&PlacedAnnotation>, hull: &RadialHull) -> Self {
         let anchor = given.anchor;
         let nearest = hull.nearest(anchor);
-        let (mut home, mut start, mut changed_side) = (nearest.t, nearest.t, false);
-        if let Some((previous, old)) = previous.and_then(|previous| previous.home.map(|home| (previous, home))) {
-            // A side is the local minimum of the distance that the old home leads to. If that is far away, the home
-            // stays where it was.
-            let minimum = hull.nearest_from(old, anchor);
-            let turn = wrapped(minimum.t - old);
-            let side = if turn.min(1.0 - turn) <= MARGIN { minimum } else { hull.at(old) };
-            changed_side = side.at.distance(anchor) > nearest.at.distance(anchor) + MARGIN * hull.diameter;
-            if !changed_side {
-                home = side.t;
-                let is_moved = previous.hidden.is_none() && previous.t != old;
-                start = if is_moved { wrapped(previous.t + (home - old)) } else { home };
+        let (mut home, mut changed_side, mut previous_offset) = (nearest.t, false, 0.0);
+        if let Some((t, old)) = previous.and_then(|previous| Some((previous.t, previous.home?))) {
+            // A side is the local minimum of the distance that the old home leads to.
+            let (start, side) = (hull.at(old), hull.nearest_from(old, anchor));
+            let margin = MARGIN * hull.diameter;
+            let is_kept = side.at.distance(anchor) <= nearest.at.distance(anchor) + margin;
+            changed_side = (if is_kept { side } else { nearest }).at.distance(start.at) > margin;
+            if is_kept {
+                let turn = wrapped(side.t - old);
+                home = if turn.min(1.0 - turn) <= ROUNDING { old } else { side.t };
             }
+            previous_offset = wrapped(t - old);
         }
-        let hidden = previous.and_then(|previous| previous.hidden);
-        Self { index, given, home, place: Place::new(hull, hull.at(start), &given), hidden, changed_side }
+        let place = Place::new(hull, hull.at(home), &given);
+        Self { index, given, home, place, hidden: None, changed_side, previous_offset, exchanged: None }
     }
 }
 
@@ -138,14 +145,11 @@ struct Table<'a> {
     hull: RadialHull,
     frame: [DVec2; 2],
     obstacles: &'a [[DVec2; 2]],
-    relocations: Vec<Relocation>,
 }
 
 impl Table<'_> {
-    /// The three steps of 6.4, in rounds until nothing changes. Labels that the previous layout hid take no part.
+    /// The three steps of 6.4, in rounds until nothing changes.
     fn resolve(&mut self, rounds: usize) {
-        let sides = self.labels.iter().filter(|label| label.changed_side);
-        self.relocations = sides.map(|label| Relocation::ChangeOfSide(label.index)).collect();
         for _ in 0..rounds {
             let uncrossed = self.exchange(Self::crosses);
             let nearer = self.exchange(Self::is_nearer);
@@ -153,6 +157,36 @@ impl Table<'_> {
                 break;
             }
         }
+    }
+
+    /// Changes of side, and labels that are shown at another distance from their homes than in the previous layout.
+    ///
+    /// Homes move with their anchors, so the distance of labels that are exchanged changes a little without a
+    /// relocation. Half a nudge is reported.
+    fn relocations(&self) -> Vec<Relocation> {
+        let mut relocations = Vec::new();
+        for label in self.labels.iter().filter(|label| label.hidden.is_none()) {
+            if label.changed_side {
+                relocations.push(Relocation::ChangeOfSide(label.index));
+            }
+            let offset = wrapped(label.place.hull.t - label.home);
+            let turn = wrapped(offset - label.previous_offset);
+            if turn.min(1.0 - turn) >= NUDGE / 2.0 {
+                relocations.push(match label.exchanged {
+                    _ if label.place.hull.t == label.home => Relocation::Return(label.index),
+                    Some(other) => Relocation::Exchange(label.index.min(other), label.index.max(other)),
+                    None => Relocation::Nudge(label.index),
+                });
+            }
+        }
+        // Both labels of an exchange report it.
+        let mut once: Vec<Relocation> = Vec::new();
+        for relocation in relocations {
+            if !once.contains(&relocation) {
+                once.push(relocation);
+            }
+        }
+        once
     }
 
     /// Exchanges the hull points of pairs for which a condition holds, and tells whether there are any.
@@ -163,8 +197,8 @@ impl Table<'_> {
                 if self.is_shown(i) && self.is_shown(j) && condition(self, i, j) {
                     let [at_i, at_j] = self.exchanged(i, j);
                     (self.labels[i].place, self.labels[j].place) = (at_i, at_j);
-                    let [i, j] = [i, j].map(|i| self.labels[i].index);
-                    self.report(Relocation::Exchange(i.min(j), i.max(j)));
+                    let [a, b] = [i, j].map(|i| self.labels[i].index);
+                    (self.labels[i].exchanged, self.labels[j].exchanged) = (Some(b), Some(a));
                     any = true;
                 }
             }
@@ -175,7 +209,10 @@ impl Table<'_> {
     /// Step 1: lines cross, and are shorter together once they are exchanged.
     fn crosses(&self, i: usize, j: usize) -> bool {
         let [a, b] = [&self.labels[i].place, &self.labels[j].place];
-        a.crosses(b) && a.anchor.distance(b.hull.at) + b.anchor.distance(a.hull.at) < a.distance() + b.distance()
+        // An exchange shortens no lines from one anchor.
+        a.anchor != b.anchor
+            && a.crosses(b)
+            && a.anchor.distance(b.hull.at) + b.anchor.distance(a.hull.at) < a.distance() + b.distance()
     }
 
     /// Step 2: both labels are nearer to their anchors once they are exchanged, without more conflicts than before.
@@ -216,7 +253,7 @@ impl Table<'_> {
             let [before, label] = [&self.labels[pair[0]], &self.labels[pair[1]]];
             if label.place.overlaps(&before.place) || label.place.touches_box(&before.place) {
                 let at = self.hull.at(wrapped(label.place.hull.t + NUDGE));
-                self.relocate(pair[1], Place::new(&self.hull, at, &label.given), Relocation::Nudge);
+                self.labels[pair[1]].place = Place::new(&self.hull, at, &label.given);
                 any = true;
             }
         }
@@ -247,26 +284,23 @@ impl Table<'_> {
                 continue;
             }
             let home = self.nudged(i, 0);
-            let free = (0..=NUDGES).map(|steps| self.nudged(i, steps)).find(|place| conflict(place).is_none());
+            let free = nudges().map(|steps| self.nudged(i, steps)).find(|place| conflict(place).is_none());
             self.labels[i].hidden = if free.is_none() { conflict(&home) } else { None };
-            match free {
-                Some(place) => self.relocate(i, place, Relocation::Nudge),
-                None => self.labels[i].place = home,
-            }
+            self.labels[i].place = free.unwrap_or(home);
         }
     }
 
-    /// Moves labels that are kept to the first free place after their homes, if it is nearer to their anchors. Tells
-    /// whether there are any.
+    /// Moves labels that are kept to the first free place from their homes that is nearer to their anchors. Tells whether
+    /// there are any.
     fn return_home(&mut self) -> bool {
         let mut any = false;
         for i in 0..self.labels.len() {
             let distance = self.labels[i].place.distance();
             if self.is_shown(i) && self.labels[i].place.hull.t != self.labels[i].home {
-                let places = (0..=NUDGES).map(|steps| self.nudged(i, steps));
-                let mut nearer = places.take_while(|place| place.distance() < distance);
+                let mut nearer =
+                    nudges().map(|steps| self.nudged(i, steps)).filter(|place| place.distance() < distance);
                 if let Some(place) = nearer.find(|place| self.conflict(i, place, 0..self.labels.len()).is_none()) {
-                    self.relocate(i, place, Relocation::Return);
+                    self.labels[i].place = place;
                     any = true;
                 }
             }
@@ -285,9 +319,9 @@ impl Table<'_> {
     }
 
     /// A label's place some nudges after its home.
-    fn nudged(&self, i: usize, nudges: usize) -> Place {
+    fn nudged(&self, i: usize, nudges: i32) -> Place {
         let label = &self.labels[i];
-        Place::new(&self.hull, self.hull.at(wrapped(label.home + nudges as f64 * NUDGE)), &label.given)
+        Place::new(&self.hull, self.hull.at(wrapped(label.home + f64::from(nudges) * NUDGE)), &label.given)
     }
 
     /// Whether a place is within the frame and covers no obstacle.
@@ -298,16 +332,9 @@ impl Table<'_> {
     fn is_shown(&self, i: usize) -> bool {
         self.labels[i].hidden.is_none()
     }
+}
 
-    /// Moves a label and reports it.
-    fn relocate(&mut self, i: usize, place: Place, relocation: fn(usize) -> Relocation) {
-        self.labels[i].place = place;
-        self.report(relocation(self.labels[i].index));
-    }
-
-    fn report(&mut self, relocation: Relocation) {
-        if !self.relocations.contains(&relocation) {
-            self.relocations.push(relocation);
-        }
-    }
+/// Nudges from a home: none, then forwards and backwards in turn.
+fn nudges() -> impl Iterator<Item = i32> {
+    std::iter::once(0).chain((1..=NUDGES).flat_map(|steps| [steps, -steps]))
 }

@@ -1,7 +1,7 @@
 //! A label at a hull point: its box, its leader line, and where two labels meet.
 
 use super::hull::{HullPoint, RadialHull};
-use super::segments::{meet, overlap, passes, within};
+use super::segments::{cross, overlap, passes, within};
 use drypoint_scene::annotations::Annotation;
 use drypoint_scene::glam::DVec2;
 
@@ -58,11 +58,11 @@ impl Place {
         passes([self.hull.at, self.end], other.corners) || passes([other.hull.at, other.end], self.corners)
     }
 
-    /// Whether two leader lines have a point in common that is not a shared anchor.
+    /// Whether two leader lines have a point in common that is not a shared anchor, or run on top of each other.
     ///
     /// First segments lie in the hull. Second segments are outward normals of a convex curve, which never meet. So first
     /// segments decide.
     pub(super) fn crosses(&self, other: &Self) -> bool {
-        self.anchor != other.anchor && meet([self.anchor, self.hull.at], [other.anchor, other.hull.at])
+        cross([self.anchor, self.hull.at], [other.anchor, other.hull.at])
     }
 }

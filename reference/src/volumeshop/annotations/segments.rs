@@ -17,6 +17,10 @@ pub(super) fn overlap([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 
 /// Whether a segment passes through the inside of a rectangle.
 pub(super) fn passes([from, to]: [DVec2; 2], [lower, upper]: [DVec2; 2]) -> bool {
+    // Most segments are beside the rectangle, or before or behind it.
+    if !(from.max(to).cmpgt(lower).all() && from.min(to).cmplt(upper).all()) {
+        return false;
+    }
     let (mut enter, mut leave) = (0.0f64, 1.0f64);
     for axis in 0..2 {
         let (start, way) = (from[axis], to[axis] - from[axis]);

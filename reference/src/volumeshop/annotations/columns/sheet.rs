@@ -1,6 +1,7 @@
 //! The labels of a page in two columns: which are shown, in which column, in which order.
 
 use super::stack::stack;
+use crate::volumeshop::annotations::layout::MOST_ROUNDS;
 use crate::volumeshop::annotations::segments::{cross, meet, overlap, passes, within};
 use drypoint_scene::annotations::{AnnotatedPage, Annotation, Hidden};
 use drypoint_scene::glam::DVec2;
@@ -68,7 +69,14 @@ impl Sheet {
         let points = outline.map(|point| point.max(lower).min(upper)).chain(labels.iter().map(|label| label.anchor));
         let bounds = points.fold([upper, lower], |[low, high], point| [low.min(point), high.max(point)]);
         let middle = bounds[0] / 2.0 + bounds[1] / 2.0;
-        Self { frame: page.frame, bounds, middle, gap: lower.distance(upper) * GAP, rounds: page.rounds, labels }
+        Self {
+            frame: page.frame,
+            bounds,
+            middle,
+            gap: lower.distance(upper) * GAP,
+            rounds: page.rounds.min(MOST_ROUNDS),
+            labels,
+        }
     }
 
     /// Whether a label fits in the left column, and whether in the right one, if it is alone.
