@@ -20,7 +20,8 @@ impl InteractionState {
     /// world space. V and V' map the world to eye space ([SPACE-2]). A pixel is counted from the middle of the picture, so
     /// that pictures of other sizes and other lenses have one, too.
     ///
-    /// In perspective a centre at the eye's depth has no pixel: it keeps its place in eye space.
+    /// In perspective a centre has no pixel at the eye's depth or behind the eye. A change that involves such a centre and
+    /// a perspective view keeps its place in eye space.
     pub fn motion(self, motion: DAffine3, centre: DVec3, [before, now]: [&View; 2]) -> DAffine3 {
         match self {
             Self::Integrated => motion,
@@ -28,9 +29,13 @@ impl InteractionState {
             Self::Pinned => {
                 let moved = motion.transform_point3(centre);
                 let at = before.to_eye(moved);
-                // World units of a pixel at the centre's depth.
-                let pixel = |view: &View| view.pixel * if view.perspective { -at.z } else { 1.0 };
-                let grown = if at.z == 0.0 { 1.0 } else { pixel(now) / pixel(before) };
+                // World units of a pixel at the centre's depth. None where perspective shows nothing.
+                let depth = -at.z;
+                let pixel = |view: &View| match view.perspective {
+                    true => (depth > 0.0).then_some(view.pixel * depth),
+                    false => Some(view.pixel),
+                };
+                let grown = pixel(now).zip(pixel(before)).map_or(1.0, |(now, before)| now / before);
                 let pinned = to_world(now).transform_point3(DVec3::new(at.x * grown, at.y * grown, at.z));
                 DAffine3::from_translation(pinned - moved) * motion
             }
@@ -111,6 +116,36 @@ mod tests {
             });
             for (a, b) in a.into_iter().zip(b) {
                 assert!((a - b).abs() < 1e-10, "{a} {b}");
+            }
+        }
+    }
+
+    /// At the eye's depth an orthographic view has a pixel. A picture of twice the height in world units shows the centre at
+    /// twice the distance from the view's axis.
+    #[test]
+    fn an_orthographic_centre_at_the_eye_keeps_its_pixel() {
+        let before = view(DVec3::NEG_Z, None, [90, 60]);
+        let now = View { pixel: 2.0 * before.pixel, ..before };
+        for depth in [0.0, 3.0, -3.0] {
+            let centre = before.eye + before.right * 2.0 - before.up * 5.0 + before.forward * depth;
+            let moved = InteractionState::Pinned.motion(DAffine3::IDENTITY, centre, [&before, &now]);
+            let wanted = before.right * 2.0 - before.up * 5.0;
+            assert!((moved.translation - wanted).length() < 1e-12, "{depth}: {moved}");
+        }
+    }
+
+    /// A centre behind the eye has no pixel in perspective. It keeps its place in eye space, and is not mirrored.
+    #[test]
+    fn a_centre_behind_the_eye_is_not_mirrored() {
+        let size = [90, 60];
+        let [flat, deep] = [None, Some(30.0)].map(|fov| view(DVec3::NEG_Z, fov, size));
+        let wide = view(DVec3::new(-1.0, 0.2, 0.1), Some(50.0), size);
+        for [before, now] in [[&flat, &deep], [&deep, &flat], [&deep, &wide]] {
+            for depth in [0.0, -4.0] {
+                let centre = before.eye + before.right * 2.0 - before.up * 5.0 + before.forward * depth;
+                let moved = InteractionState::Pinned.motion(DAffine3::IDENTITY, centre, [before, now]);
+                let at = now.to_eye(moved.transform_point3(centre));
+                assert!((at - DVec3::new(2.0, -5.0, -depth)).length() < 1e-10, "{at}");
             }
         }
     }
