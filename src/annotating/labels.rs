@@ -6,7 +6,7 @@ use crate::picking::point_of_pixel;
 use drypoint_output::text::font::extent;
 use drypoint_reference::figure::inner_points;
 use drypoint_reference::ray::{Picked, Renderer};
-use drypoint_reference::volumeshop::annotations::layout;
+use drypoint_reference::volumeshop::annotations::{columns, layout};
 use drypoint_scene::annotations::{AnnotatedPage, Annotation, AnnotationLayout, Hidden, PlacedAnnotation};
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Dot, Layer, Text};
@@ -52,8 +52,11 @@ impl Annotating<'_> {
         let pen = self.pen(&table.line, "labels", "labels.pen")?;
         let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
         let page = self.annotated_page(view, &table, anchors, obstacles(margin));
-        let LabelLayout::Hull = table.layout;
-        let found = layout(&page, self.previous.as_ref());
+        let arrange = match table.layout {
+            LabelLayout::Hull => layout,
+            LabelLayout::Columns => columns,
+        };
+        let found = arrange(&page, self.previous.as_ref());
         notes.extend(left_out(&found, &anchors.labels));
         // Leader lines with their dots, then text.
         let mut layer = Layer::new(pen);

@@ -20,6 +20,7 @@ const LARGEST: f64 = 1e150;
 ///
 /// - A column is flush at its inner edge, at a gap from the bounding box. If its widest label has no room there, the
 ///   column moves inwards until that label reaches the frame.
+/// - Columns stand in the largest part of the frame beside all obstacles.
 /// - A label stands in the column on its anchor's side of the box's middle. A label that fits in one column alone
 ///   stands there. A column that is full gives its labels nearest the middle to the other one.
 /// - Labels of a column are in the order of their anchors' y. Labels whose lines cross are exchanged.

@@ -73,7 +73,7 @@ table! {
         /// o_min: opacity of the leader line of the farthest anchor.
         least_opacity: f64 = 0.25, key("VS-10", Number { bounds: Bounds::UNIT, unit: "" });
         /// The largest number of rounds in which conflicts of labels are resolved.
-        rounds: usize = 256, key("VS-10", Whole { lo: 0, hi: 10_000 });
+        rounds: usize = 64, key("VS-10", Whole { lo: 0, hi: 10_000 });
         /// The leader lines.
         line: LineStyle = LineStyle::black(0.2);
         /// Colour of text and leader lines.
@@ -93,8 +93,9 @@ choices! {
     pub enum LabelLayout {
         /// Around the convex hull of what is shown: the paper's.
         Hull = "hull",
+        /// In two columns, at the left and at the right of what is shown, as in atlases.
+        Columns = "columns",
     }
-    later &["columns"]
 }
 
 const POINT: Numbers<3> = Numbers { what: "a point [x, y, z]", bounds: Bounds::ANY, rule: Rule::Free };

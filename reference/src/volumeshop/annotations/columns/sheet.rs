@@ -53,6 +53,7 @@ impl Standing {
 /// A page with its labels in the order of priority.
 pub(super) struct Sheet {
     pub(super) labels: Vec<Annotation>,
+    /// The frame without the strips that obstacles take.
     frame: [DVec2; 2],
     /// The hull's bounding box within the frame.
     bounds: [DVec2; 2],
@@ -64,19 +65,13 @@ pub(super) struct Sheet {
 
 impl Sheet {
     pub(super) fn new(page: &AnnotatedPage, labels: Vec<Annotation>) -> Self {
-        let [lower, upper] = page.frame;
+        let frame = page.obstacles.iter().fold(page.frame, |frame, obstacle| beside(frame, *obstacle));
+        let [lower, upper] = frame;
         let outline = page.outline.iter().copied().filter(|point| point.is_finite());
         let points = outline.map(|point| point.max(lower).min(upper)).chain(labels.iter().map(|label| label.anchor));
         let bounds = points.fold([upper, lower], |[low, high], point| [low.min(point), high.max(point)]);
         let middle = bounds[0] / 2.0 + bounds[1] / 2.0;
-        Self {
-            frame: page.frame,
-            bounds,
-            middle,
-            gap: lower.distance(upper) * GAP,
-            rounds: page.rounds.min(MOST_ROUNDS),
-            labels,
-        }
+        Self { frame, bounds, middle, gap: lower.distance(upper) * GAP, rounds: page.rounds.min(MOST_ROUNDS), labels }
     }
 
     /// Whether a label fits in the left column, and whether in the right one, if it is alone.
@@ -282,6 +277,21 @@ impl Sheet {
         left_out.sort_by_key(|(label, _)| *label);
         (free, left_out)
     }
+}
+
+/// The largest part of a frame at the left, at the right, above or below an obstacle in it.
+fn beside([lower, upper]: [DVec2; 2], [low, high]: [DVec2; 2]) -> [DVec2; 2] {
+    if !overlap([lower, upper], [low, high]) {
+        return [lower, upper];
+    }
+    let size = upper - lower;
+    let parts = [
+        ((high.x - lower.x) / size.x, [DVec2::new(high.x, lower.y), upper]),
+        ((upper.x - low.x) / size.x, [lower, DVec2::new(low.x, upper.y)]),
+        ((high.y - lower.y) / size.y, [DVec2::new(lower.x, high.y), upper]),
+        ((upper.y - low.y) / size.y, [lower, DVec2::new(upper.x, low.y)]),
+    ];
+    parts.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or([lower, upper], |(_, part)| part)
 }
 
 /// All pairs i < j of some numbers from 0.

@@ -278,3 +278,13 @@ fn hard_cases() {
         assert_eq!(kept(&laid), 0);
     }
 }
+
+/// An obstacle takes the strip of the frame that costs least, and boxes stand beside the strip, also those of anchors in it.
+#[test]
+fn columns_leave_obstacles_free() {
+    let mut page = page(vec![label(460.0, 590.0, 1.0), label(340.0, 500.0, 1.0)], vec![]);
+    page.obstacles = vec![[DVec2::new(20.0, 570.0), DVec2::new(200.0, 590.0)]];
+    let laid = columns(&page, None);
+    assert_eq!(laid.annotations[0].corners[1].y, 570.0);
+    assert_eq!(kept(&laid), 2);
+}
