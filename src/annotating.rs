@@ -19,6 +19,7 @@ use drypoint_scene::tables::{
 use drypoint_scene::view::View;
 use labels::LabelAnchors;
 use lines::Seen;
+pub(crate) use lines::plain;
 
 /// The most points of one line.
 const MOST_POINTS: usize = 20_000;

@@ -14,7 +14,7 @@ use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, Page, mark_counts};
-use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::{Orbit, Scene};
@@ -233,6 +233,21 @@ pub fn write_page(marks: Marks, scene: &Scene, target: RenderTarget, path: &Path
     let provenance = provenance(scene, &Plan::of_marks(scene));
     let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0, notes: Vec::new() };
     FrameWriter { scene, target, provenance }.write(frame, path)
+}
+
+/// Writes a picture with marks over it on the page of a scene, as [`Frame::write`] does.
+///
+/// # Errors
+/// Same errors as [`Frame::write`].
+pub(crate) fn write_picture(
+    picture: Option<Picture>,
+    marks: Marks,
+    scene: &Scene,
+    provenance: Provenance,
+    path: &Path,
+) -> Result<WriteReport, Failure> {
+    let frame = Frame { number: 0, picture, marks: Some(marks), inside: 0, notes: Vec::new() };
+    FrameWriter { scene, target: RenderTarget::Picture, provenance }.write(frame, path)
 }
 
 /// Checks that the memory budget allows the pixels of a file, before anything is drawn. A vector file has no pixels.

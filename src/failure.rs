@@ -111,6 +111,11 @@ impl Failures {
         failures.next().map_or(Ok(()), |first| Err(Self::new(first, failures)))
     }
 
+    /// Changes each failure.
+    pub(crate) fn map(self, change: impl Fn(Failure) -> Failure) -> Self {
+        Self(self.0.into_iter().map(change).collect())
+    }
+
     /// Iterates over the failures, at least one.
     pub fn iter(&self) -> std::slice::Iter<'_, Failure> {
         self.0.iter()

@@ -68,7 +68,7 @@ pub(crate) use load::known_label;
 use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
 pub use painting::Painting;
-pub(crate) use provenance::provenance;
+pub(crate) use provenance::{figure_provenance, provenance};
 pub(crate) use room::{no_room_for_pixels, room, room_for_passes, room_for_picture};
 use room::{room_for_halos, room_for_table};
 use std::num::NonZeroUsize;

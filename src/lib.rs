@@ -14,6 +14,7 @@
 //! | a file | [`job::Job::write`] |
 //! | the place that is seen at a pixel | [`picking::pick_pixel`] |
 //! | points and lines, and frames of all of it | [`marking::Marking`], [`drawing::Drawing`] |
+//! | several scenes on one page | [`figure::FigureLayout`] |
 //! | frames of the volume alone, on either back end | [`frames::Frames`] |
 //! | what its accuracy costs | [`cost::sweep`] |
 //! | all of the command | `command::run` |
@@ -30,6 +31,7 @@ pub mod command;
 pub mod cost;
 pub mod drawing;
 pub mod failure;
+pub mod figure;
 pub mod format;
 pub mod frames;
 #[cfg(feature = "gpu")]

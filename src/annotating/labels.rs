@@ -99,11 +99,10 @@ impl Annotating<'_> {
                 size: DVec2::new(extent.advance, extent.ascent + extent.descent) + 2.0 * gap,
             }
         });
-        let margin = DVec2::splat(self.page.margin);
         AnnotatedPage {
             annotations: annotations.collect(),
             outline: widened(&self.on_page(view, &anchors.around), self.mm(table.distance)),
-            frame: [margin, self.page.size - margin],
+            frame: self.page.frame(),
             obstacles,
             rounds: table.rounds,
             least_opacity: table.least_opacity,

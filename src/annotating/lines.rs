@@ -89,7 +89,7 @@ impl Seen<'_> {
 }
 
 /// Returns a line through points of the page, in mm.
-pub(super) fn plain(points: &[DVec2], width: f64, opacity: f64, closed: bool) -> Polyline {
+pub(crate) fn plain(points: &[DVec2], width: f64, opacity: f64, closed: bool) -> Polyline {
     let last = points.len().saturating_sub(1).max(1) as f64;
     let vertex = |(i, &at): (usize, &DVec2)| Vertex {
         at,

@@ -193,6 +193,10 @@ pub(super) fn find(path: Option<&Path>, over: &SceneOverrides) -> Result<VerbInp
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
     };
     if is_scene(path) {
+        if std::fs::read_to_string(path).is_ok_and(|text| file::is_figure(&text)) {
+            let what = "this is a figure of several scenes, and one scene is wanted";
+            return Err(Failure::new(what, path.display(), "draw it with drypoint figure").into());
+        }
         let scene = file::load(path, &over.overrides);
         return Ok(found(scene.map_err(|faults| over.failures(faults))?));
     }

@@ -5,6 +5,7 @@ mod compare;
 mod completions;
 mod cost;
 mod empty;
+mod figure;
 mod frames;
 mod graphics;
 mod halo;
@@ -95,6 +96,8 @@ enum Verb {
     Validate(validate::ValidateArgs),
     /// Measure error and time of every accuracy setting of a scene
     Cost(cost::CostArgs),
+    /// Draw several scenes on one page, with letters, captions and insets
+    Figure(figure::FigureArgs),
     /// Write a contact sheet of volumes, scenes or pictures
     Sheet(sheet::SheetArgs),
     /// Spread a picture of seeds into a halo
@@ -182,6 +185,7 @@ impl Cli {
             Verb::Compare(verb) => verb.run(talk),
             Verb::Validate(verb) => verb.run(talk),
             Verb::Cost(verb) => verb.run(talk),
+            Verb::Figure(verb) => verb.run(talk),
             Verb::Sheet(verb) => verb.run(talk),
             Verb::Halo(verb) => verb.run(talk),
             Verb::Wedge(verb) => verb.run(talk),

@@ -7,6 +7,7 @@ use super::raw::RawArgs;
 use super::report::{note, print};
 use super::stats;
 use super::{Done, Outcome, Talk, graphics};
+use crate::gpu::Gpu;
 use crate::{Failure, Format};
 use clap::builder::RangedU64ValueParser;
 use clap::{Args, ValueEnum};
@@ -54,7 +55,7 @@ pub(super) struct RenderArgs {
 
 /// The renderer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Backend {
+pub(super) enum Backend {
     /// CPU, in f64, the ground truth
     Reference,
     /// Graphics card, in f32; needs a build with --features gpu
@@ -63,12 +64,19 @@ enum Backend {
     GpuFast,
 }
 
+impl Backend {
+    /// Opens the graphics card, if it is to draw.
+    pub(super) fn open(self, talk: Talk) -> Result<Option<Gpu>, Failure> {
+        match self {
+            Self::Reference => Ok(None),
+            Self::Gpu | Self::GpuFast => graphics::open(talk, self == Self::GpuFast).map(Some),
+        }
+    }
+}
+
 impl RenderArgs {
     pub(super) fn run(self, talk: Talk) -> Outcome {
-        let gpu = match self.backend {
-            Backend::Reference => None,
-            Backend::Gpu | Backend::GpuFast => Some(graphics::open(talk, self.backend == Backend::GpuFast)?),
-        };
+        let gpu = self.backend.open(talk)?;
         // A template draws many volumes, and each picture has the name of its own.
         let named = self.template.volume.as_deref().or(self.input.as_deref());
         let target = RenderOutput::new(self.output.as_deref(), named, !self.layers.is_empty())?;

@@ -6,6 +6,7 @@ mod budget;
 mod compare;
 mod cost;
 mod extract;
+mod figure;
 mod folder;
 mod frames;
 mod generated;

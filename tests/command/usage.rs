@@ -32,6 +32,7 @@ fn help_and_version_are_no_errors() {
         "styles",
         "compare",
         "cost",
+        "figure",
         "sheet",
         "halo",
         "wedge",

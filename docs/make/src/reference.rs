@@ -1,14 +1,19 @@
-//! `docs/scene-reference.md` and `docs/scene.schema.json`, from the description of the tables.
+//! `docs/scene-reference.md`, `docs/figure-reference.md` and their JSON Schemas, from the description of the tables.
 
 use crate::files;
-use drypoint::scene::file::{reference_markdown, schema};
+use drypoint::scene::file::{figure_reference_markdown, figure_schema, reference_markdown, schema};
 
 /// What is generated: file and text.
-fn pages() -> [(&'static str, String); 2] {
-    [("scene-reference.md", reference_markdown()), ("scene.schema.json", format!("{:#}\n", schema()))]
+fn pages() -> [(&'static str, String); 4] {
+    [
+        ("scene-reference.md", reference_markdown()),
+        ("scene.schema.json", format!("{:#}\n", schema())),
+        ("figure-reference.md", figure_reference_markdown()),
+        ("figure.schema.json", format!("{:#}\n", figure_schema())),
+    ]
 }
 
-/// Writes both files.
+/// Writes the files.
 ///
 /// # Errors
 /// What the system says, with the file.

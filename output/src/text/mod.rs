@@ -10,11 +10,13 @@ mod alphabet;
 pub(crate) mod contour;
 mod elements;
 pub mod font;
+mod wrap;
 
 use alphabet::{glyph_of, is_known};
 use elements::polyline;
 
 pub(crate) use alphabet::GAP;
+pub use wrap::wrapped;
 
 /// Height of capitals and digits.
 pub const CAP_HEIGHT: f64 = 20.0;

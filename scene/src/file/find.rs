@@ -5,7 +5,7 @@ use crate::document::out;
 use crate::document::{Place, Problem};
 use crate::nearest::nearest;
 use crate::tables::styles::THEMES;
-use crate::tables::{Axis, Background, Over, Scene, StyleSource, Transfer, VolumeSource};
+use crate::tables::{Axis, Background, Figure, Over, PanelSource, Scene, StyleSource, Transfer, VolumeSource};
 use std::path::{Path, PathBuf};
 
 /// The variable that lists folders of volumes.
@@ -44,6 +44,22 @@ pub(super) fn files(scene: &mut Scene, check: &mut Check, folders: &[PathBuf]) {
         let nearest = nearest(&name, known.iter().map(String::as_str)).map(Into::into);
         let problem = Problem::Reference { what: "theme or folder".into(), name, nearest, known };
         check.fault_of("styles.theme".into(), &place, problem);
+    }
+}
+
+/// Looks for every file that a figure names, and says which are not there.
+pub(super) fn panels(figure: &mut Figure, check: &mut Check, folders: &[PathBuf]) {
+    for (i, panel) in figure.panels.iter_mut().enumerate() {
+        let insets = panel.insets.iter_mut().enumerate();
+        let insets = insets.map(|(j, inset)| (format!("panel[{i}].inset[{j}]"), &mut inset.source));
+        for (table, source) in std::iter::once((format!("panel[{i}]"), &mut panel.source)).chain(insets) {
+            let PanelSource { scene, volume, picture, .. } = source;
+            for (key, path) in [("scene", scene), ("volume", volume), ("picture", picture)] {
+                if let Some(path) = path {
+                    must_be_found(path, &format!("{table}.{key}"), check, folders);
+                }
+            }
+        }
     }
 }
 

@@ -16,6 +16,7 @@
 
 mod checks;
 mod embedded;
+mod figure;
 mod find;
 mod template;
 #[cfg(test)]
@@ -23,6 +24,9 @@ mod tests;
 
 pub use crate::document::{Fault, Faults, Given, Overrides, Place, Problem};
 pub use embedded::DEFAULT_SCENE;
+pub use figure::{
+    figure_identity, figure_reference_markdown, figure_schema, is_figure, load_figure, parse_figure, write_full_figure,
+};
 pub use find::data_folders;
 
 use crate::document::check::Check;
@@ -32,6 +36,7 @@ use crate::memory;
 use crate::source::Disk;
 use crate::tables::root::ROOT;
 use crate::tables::{Scene, Transfer, TransferKind};
+use std::io;
 use std::path::Path;
 
 /// Returns the scene with every default filled in, as the text of a scene file ([SCN-3]). Reading the text gives the
@@ -73,7 +78,7 @@ pub fn reference_markdown() -> String {
 pub fn parse(text: &str, file_name: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(file_name);
     let scene = read(text, None, overrides, &mut check);
-    finish(scene, check)
+    finish(scene, |scene| &mut scene.given, check)
 }
 
 /// Reads a scene file. A volume that is not beside the scene is looked for in [`data_folders`].
@@ -97,20 +102,11 @@ pub fn load_for(path: &Path, volume: &Path, overrides: &Overrides) -> Result<Sce
 
 fn load_over(path: &Path, volume: Option<&Path>, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(path);
-    let scene = match memory::read_to_string(&Disk, path) {
-        Ok(text) => {
-            let mut scene = read(&text, volume, overrides, &mut check);
-            if let Some(scene) = &mut scene {
-                find::files(scene, &mut check, &data_folders());
-            }
-            scene
-        }
-        Err(e) => {
-            check.fault(&Place::File { line: 1, column: 1 }, Problem::Unreadable { reason: e.to_string() });
-            None
-        }
-    };
-    finish(scene, check)
+    let mut scene = text(path, &mut check).and_then(|text| read(&text, volume, overrides, &mut check));
+    if let Some(scene) = &mut scene {
+        find::files(scene, &mut check, &data_folders());
+    }
+    finish(scene, |scene| &mut scene.given, check)
 }
 
 /// The most bytes of a scene's text. A list of 100000 nodes has about 6 MiB.
@@ -118,20 +114,7 @@ const LONGEST_TEXT: usize = 1 << 24;
 
 /// Walks a text. The scene is whole only if the walk found no fault; until then it holds what passed.
 fn read(text: &str, volume: Option<&Path>, overrides: &Overrides, check: &mut Check) -> Option<Scene> {
-    if text.len() > LONGEST_TEXT {
-        let reason = format!("it has {} bytes, and a scene has at most {LONGEST_TEXT}", text.len());
-        check.fault(&Place::File { line: 1, column: 1 }, Problem::Unreadable { reason });
-        return None;
-    }
-    let mut document = match Item::document(text) {
-        Ok(document) => document,
-        Err(faults) => {
-            for (place, problem) in faults {
-                check.fault(&place, problem);
-            }
-            return None;
-        }
-    };
+    let mut document = document(text, check)?;
     let replaced = volume.map(|volume| template::Replaced::new(&mut document, volume));
     overrides.apply(&ROOT, &mut document, check);
     let mut scene = check.table(&ROOT, &document)?;
@@ -146,12 +129,38 @@ fn read(text: &str, volume: Option<&Path>, overrides: &Overrides, check: &mut Ch
     Some(scene)
 }
 
-fn finish(scene: Option<Scene>, check: Check) -> Result<Scene, Faults> {
-    let (given, faults) = check.done();
-    match (scene, Faults::new(faults)) {
-        (Some(scene), None) => Ok(Scene { given, ..scene }),
+/// Parses a text.
+fn document(text: &str, check: &mut Check) -> Option<Item> {
+    if text.len() > LONGEST_TEXT {
+        let reason = format!("it has {} bytes, and at most {LONGEST_TEXT} are read", text.len());
+        check.fault(&Place::File { line: 1, column: 1 }, Problem::Unreadable { reason });
+        return None;
+    }
+    let document = Item::document(text);
+    let faults =
+        document.map_err(|faults| faults.into_iter().for_each(|(place, problem)| check.fault(&place, problem)));
+    faults.ok()
+}
+
+/// Reads the text of a file.
+fn text(path: &Path, check: &mut Check) -> Option<String> {
+    let text = memory::read_to_string(&Disk, path);
+    let unreadable = |e: io::Error| {
+        check.fault(&Place::File { line: 1, column: 1 }, Problem::Unreadable { reason: e.to_string() });
+    };
+    text.map_err(unreadable).ok()
+}
+
+/// Returns what was read, with the places of its keys, or the faults.
+fn finish<T>(read: Option<T>, given: fn(&mut T) -> &mut Given, check: Check) -> Result<T, Faults> {
+    let (places, faults) = check.done();
+    match (read, Faults::new(faults)) {
+        (Some(mut read), None) => {
+            *given(&mut read) = places;
+            Ok(read)
+        }
         (_, Some(faults)) => Err(faults),
-        // `read` gives no scene only after it has reported a fault.
-        (None, None) => unreachable!("no scene and no fault"),
+        // Nothing is read only after a fault was reported.
+        (None, None) => unreachable!("nothing read and no fault"),
     }
 }

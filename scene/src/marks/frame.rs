@@ -1,6 +1,6 @@
 //! Clipping of marks to the frame ([STIP-16]): dots and text are kept whole or not at all, lines and areas are cut.
 
-use super::{Marks, Page, Polyline, Vertex};
+use super::{Marks, Polyline, Vertex};
 use glam::DVec2;
 
 impl Marks {
@@ -11,17 +11,60 @@ impl Marks {
     /// An area stays where it is inside. A line of text stays if its start is inside, even if its end is not, because
     /// this crate does not know its font.
     pub fn keep_inside(&mut self) {
-        let page = self.page;
+        self.keep_within(self.page.frame());
+    }
+
+    /// Clips the marks to a rectangle, as [`Self::keep_inside`] does to the frame.
+    pub fn keep_within(&mut self, frame: [DVec2; 2]) {
         for layer in &mut self.layers {
-            layer.dots.retain(|dot| inside(&page, dot.at, dot.radius));
+            layer.dots.retain(|dot| inside(frame, dot.at, dot.radius));
             let lines = std::mem::take(&mut layer.lines);
-            layer.lines = lines.into_iter().flat_map(|line| cut(&page, line)).collect();
+            layer.lines = lines.into_iter().flat_map(|line| cut(frame, line)).collect();
             for area in &mut layer.areas {
-                area.outlines.iter_mut().for_each(|outline| *outline = clip(&page, std::mem::take(outline)));
+                area.outlines.iter_mut().for_each(|outline| *outline = clip(frame, std::mem::take(outline)));
                 area.outlines.retain(|outline| outline.len() > 2);
             }
             layer.areas.retain(|area| !area.outlines.is_empty());
-            layer.texts.retain(|text| text.at.is_finite() && inside(&page, text.at, 0.0));
+            layer.texts.retain(|text| text.at.is_finite() && inside(frame, text.at, 0.0));
+        }
+    }
+
+    /// Cuts a rectangle out of the marks. Dots and text that begin in it are removed, lines and areas are cut.
+    ///
+    /// Areas become the parts in four strips around the rectangle, and lines end at the strips' edges.
+    pub fn cut_out(&mut self, [low, high]: [DVec2; 2]) {
+        let size = self.page.size;
+        let strips = [
+            [DVec2::ZERO, DVec2::new(low.x, size.y)],
+            [DVec2::new(high.x, 0.0), size],
+            [DVec2::new(low.x, 0.0), DVec2::new(high.x, low.y)],
+            [DVec2::new(low.x, high.y), DVec2::new(high.x, size.y)],
+        ];
+        let is_outside = |at: DVec2| at.cmplt(low).any() || at.cmpgt(high).any();
+        let mut whole = self.clone();
+        for layer in &mut whole.layers {
+            (layer.lines, layer.areas) = (Vec::new(), Vec::new());
+            layer.dots.retain(|dot| is_outside(dot.at));
+            layer.texts.retain(|text| is_outside(text.at));
+        }
+        for strip in strips {
+            let mut part = self.clone();
+            part.keep_within(strip);
+            for (whole, part) in whole.layers.iter_mut().zip(part.layers) {
+                whole.lines.extend(part.lines);
+                whole.areas.extend(part.areas);
+            }
+        }
+        *self = whole;
+    }
+
+    /// Moves the marks on their page.
+    pub fn shift(&mut self, way: DVec2) {
+        for layer in &mut self.layers {
+            layer.dots.iter_mut().for_each(|dot| dot.at += way);
+            layer.lines.iter_mut().flat_map(|line| &mut line.vertices).for_each(|vertex| vertex.at += way);
+            layer.areas.iter_mut().flat_map(|area| &mut area.outlines).flatten().for_each(|at| *at += way);
+            layer.texts.iter_mut().for_each(|text| text.at += way);
         }
     }
 }
@@ -30,9 +73,13 @@ impl Marks {
 /// of places.
 const SLACK: f64 = 1e-9;
 
-fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
-    let near = at - (page.margin + radius - SLACK);
-    let far = page.size - (page.margin + radius - SLACK) - at;
+fn slackened([low, high]: [DVec2; 2]) -> [DVec2; 2] {
+    [low - SLACK, high + SLACK]
+}
+
+fn inside([low, high]: [DVec2; 2], at: DVec2, radius: f64) -> bool {
+    let near = at - low - (radius - SLACK);
+    let far = high - (radius - SLACK) - at;
     near.min_element() >= 0.0 && far.min_element() >= 0.0
 }
 
@@ -40,9 +87,9 @@ fn inside(page: &Page, at: DVec2, radius: f64) -> bool {
 ///
 /// Sutherland and Hodgman cut one side of the frame after another. An outline that leaves and comes back stays one,
 /// joined along the frame's edge, which adds no area. Winding numbers inside the frame stay.
-fn clip(page: &Page, mut outline: Vec<DVec2>) -> Vec<DVec2> {
-    let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
-    let sides: [&dyn Fn(DVec2) -> f64; 4] = [&|p| p.x - lo, &|p| p.y - lo, &|p| hi.x - p.x, &|p| hi.y - p.y];
+fn clip(frame: [DVec2; 2], mut outline: Vec<DVec2>) -> Vec<DVec2> {
+    let [lo, hi] = slackened(frame);
+    let sides: [&dyn Fn(DVec2) -> f64; 4] = [&|p| p.x - lo.x, &|p| p.y - lo.y, &|p| hi.x - p.x, &|p| hi.y - p.y];
     for distance in sides {
         if outline.iter().all(|&p| distance(p) >= 0.0) {
             continue;
@@ -64,8 +111,8 @@ fn clip(page: &Page, mut outline: Vec<DVec2>) -> Vec<DVec2> {
 }
 
 /// The parts of a line that lie inside; the line itself if all of it does.
-fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
-    if line.vertices.iter().all(|v| inside(page, v.at, v.radius)) {
+fn cut(frame: [DVec2; 2], line: Polyline) -> Vec<Polyline> {
+    if line.vertices.iter().all(|v| inside(frame, v.at, v.radius)) {
         return vec![line];
     }
     let mut vertices = line.vertices;
@@ -76,7 +123,7 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
     // Whether the last part ends where the next segment begins.
     let mut joins = false;
     for pair in vertices.windows(2) {
-        let Some([from, to]) = range(page, &pair[0], &pair[1]) else {
+        let Some([from, to]) = range(frame, &pair[0], &pair[1]) else {
             joins = false;
             continue;
         };
@@ -92,11 +139,11 @@ fn cut(page: &Page, line: Polyline) -> Vec<Polyline> {
 
 /// Returns the interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear
 /// along the segment, so each side of the frame keeps one interval.
-fn range(page: &Page, a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
-    let (lo, hi) = (page.margin - SLACK, page.size - page.margin + SLACK);
+fn range(frame: [DVec2; 2], a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
+    let [lo, hi] = slackened(frame);
     clipped([
-        (a.at.x - a.radius - lo, b.at.x - b.radius - lo),
-        (a.at.y - a.radius - lo, b.at.y - b.radius - lo),
+        (a.at.x - a.radius - lo.x, b.at.x - b.radius - lo.x),
+        (a.at.y - a.radius - lo.y, b.at.y - b.radius - lo.y),
         (hi.x - a.at.x - a.radius, hi.x - b.at.x - b.radius),
         (hi.y - a.at.y - a.radius, hi.y - b.at.y - b.radius),
     ])
@@ -119,7 +166,7 @@ pub fn clipped(distances: impl IntoIterator<Item = (f64, f64)>) -> Option<[f64; 
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Area, Dot, Layer, Pen, Text};
+    use super::super::{Area, Dot, Layer, Page, Pen, Text};
     use super::*;
     use glam::DVec3;
     use proptest::prelude::*;
@@ -261,10 +308,35 @@ mod tests {
                     ((*b - *a).perp_dot(at - *a) / a.distance(*b)).abs() < 1e-6
                 });
                 if !near {
-                    let within = inside(&marks().page, at, 0.0);
+                    let within = inside(marks().page.frame(), at, 0.0);
                     prop_assert_eq!(winding(kept, at), if within { winding(&outline, at) } else { 0 });
                 }
             }
         }
+    }
+
+    /// A rectangle takes its share of a line and of an area, and what begins in it.
+    #[test]
+    fn a_rectangle_is_cut_out() {
+        let mut marks = marks();
+        let hole = [DVec2::new(30.0, 15.0), DVec2::new(50.0, 30.0)];
+        let layer = &mut marks.layers[0];
+        layer.lines = vec![line(false, &[(20.0, 20.0), (80.0, 20.0)], 0.5)];
+        layer.areas = vec![area(&[&[(20.0, 12.0), (60.0, 12.0), (60.0, 35.0), (20.0, 35.0)]])];
+        let dot = |x, y| Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.1, opacity: 1.0 };
+        layer.dots = vec![dot(40.0, 20.0), dot(40.0, 31.0)];
+        marks.cut_out(hole);
+        let layer = &marks.layers[0];
+        let ends: Vec<f64> = layer.lines.iter().flat_map(|line| line.vertices.iter().map(|v| v.at.x)).collect();
+        assert!(ends.iter().zip([20.0, 29.5, 50.5, 80.0]).all(|(a, b)| (a - b).abs() < 1e-6), "{ends:?}");
+        let shoelace = |outline: &Vec<DVec2>| -> f64 {
+            let turned = outline.iter().cycle().skip(1);
+            outline.iter().zip(turned).map(|(a, b)| a.perp_dot(*b) / 2.0).sum::<f64>().abs()
+        };
+        let left: f64 = layer.areas.iter().flat_map(|area| &area.outlines).map(shoelace).sum();
+        assert!((left - (40.0 * 23.0 - 20.0 * 15.0)).abs() < 1e-6, "{left}");
+        assert_eq!(layer.dots, [dot(40.0, 31.0)]);
+        marks.shift(DVec2::new(1.0, 2.0));
+        assert_eq!(marks.layers[0].dots[0].at, DVec2::new(41.0, 33.0));
     }
 }

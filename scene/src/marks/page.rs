@@ -79,6 +79,11 @@ impl Page {
         self.size - 2.0 * self.margin
     }
 
+    /// Upper left and lower right corner of the frame, in mm.
+    pub fn frame(&self) -> [DVec2; 2] {
+        [DVec2::splat(self.margin), self.size - self.margin]
+    }
+
     /// The place on the page of a point in a picture of `size` pixels. `at` is in pixels from the picture's upper left
     /// corner, the centre of the first pixel at (½, ½). The picture fills the frame. Rounding a length in mm to whole
     /// pixels therefore stretches it by less than half a pixel over the whole side.

@@ -10,6 +10,7 @@ pub mod clip;
 pub mod combine;
 pub mod contours;
 mod dab;
+pub mod figure;
 pub mod halo;
 mod halo_presets;
 pub mod hatching;
@@ -49,6 +50,7 @@ pub use clip::{Clip, ClipSpace};
 pub use combine::{Combine, Fuzzy};
 pub use contours::{Contours, Kappa, SignFlip};
 pub use dab::Dab;
+pub use figure::{Figure, FigureSettings, Inset, Panel, PanelCameras, PanelLetters, PanelSource};
 pub use halo::{
     Exponents, FocusPoints, Halo, HaloAccumulation, HaloFocus, HaloKind, HaloSource, ProfileNode, SeedBy,
     SeedDirection, SeedValue, Seeding, Spreading,

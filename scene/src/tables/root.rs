@@ -19,7 +19,7 @@ use serde_json::{Value as Json, json};
 const VERSION: i64 = 1;
 
 /// `drypoint = 1`.
-struct Version;
+pub(super) struct Version;
 
 impl Shape for Version {
     fn expected(&self) -> String {

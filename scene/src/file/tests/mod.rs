@@ -3,6 +3,7 @@
 mod clips;
 mod drift;
 mod faults;
+mod figure;
 mod found;
 mod limits;
 mod over;

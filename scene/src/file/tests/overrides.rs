@@ -172,7 +172,7 @@ fn files_are_found_beside_the_scene_then_in_the_listed_folders() {
         let overrides: Overrides = settings.iter().copied().collect();
         let mut scene = read(text, None, &overrides, &mut check).unwrap();
         find::files(&mut scene, &mut check, &[root.join("nowhere"), data.clone()]);
-        finish(Some(scene), check)
+        finish(Some(scene), |scene| &mut scene.given, check)
     };
     let text = "drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n";
     let found = |path: PathBuf| VolumeSource::File { path, raw: None };

@@ -1,12 +1,17 @@
-//! Contact sheets: pictures side by side on white, each with its label.
+//! Contact sheets: pictures side by side on white, each with its label. Figures: pictures at given places of one picture.
+
+mod canvas;
+mod scaled;
 
 use crate::OutputError;
 use crate::layers::room;
 use crate::raster::coverage;
-use crate::read::{ColorChannels, Image};
+use crate::read::Image;
 use crate::text::{CAP_HEIGHT, DESCENT, WEIGHT, fit, strokes, width};
-use drypoint_scene::color::srgb_to_linear;
-use drypoint_scene::picture::{Layer, LayerKind, Picture};
+use canvas::Canvas;
+use drypoint_scene::color::{Rgba, srgb_to_linear};
+use drypoint_scene::picture::Picture;
+use scaled::scaled;
 
 /// Layout of a sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +74,7 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
 
     room(None, [total_width, total_height], PIXEL)?;
     // Row by row: pictures centred in their cells, labels below.
-    let mut canvas = SheetCanvas::white(total_width, total_height);
+    let mut canvas = Canvas::new([total_width, total_height], [1.0; 4]);
     let mut top = margin;
     for ((pictures, sizes), height) in pictures.chunks(columns).zip(sizes.chunks(columns)).zip(rows) {
         for (column, ((label, image), &[w, h])) in pictures.iter().zip(sizes).enumerate() {
@@ -77,7 +82,7 @@ pub fn sheet(pictures: &[(String, Image)], layout: Layout) -> Result<Picture, Ou
             let pixels = scaled(image, w, h)
                 .ok_or_else(|| OutputError::NoColor { name: label.clone(), found: image.names() })?;
             canvas.lay(&pixels, w, [left + (cell - w) / 2, top + (height - h) / 2]);
-            canvas.write(label, [left, top + height], [cell, label_height], cap);
+            write(&mut canvas, label, [left, top + height], [cell, label_height], cap);
         }
         top += height + label_height + margin;
     }
@@ -92,99 +97,51 @@ fn fitted(image: &Image, cell: usize) -> Option<[usize; 2]> {
     (w.min(h) > 0).then(|| [side(w), side(h)])
 }
 
-/// Returns linear premultiplied pixels of the image at another size: the mean over the area of each new pixel. None if
-/// the image has no colours.
-fn scaled(image: &Image, width: usize, height: usize) -> Option<Vec<[f64; 4]>> {
-    let ColorChannels { rgb: [r, g, b], alpha } = image.colors()?;
-    let opaque = alpha.is_none().then(|| vec![1.0; image.width * image.height]);
-    let alpha = alpha.or(opaque.as_deref()).unwrap_or_default();
-    let [across, down] = [shares(image.width, width), shares(image.height, height)];
-    // The mean is separable: across each row first, then down each column.
-    let mut rows = vec![[0.0; 4]; width * image.height];
-    for (y, row) in rows.chunks_exact_mut(width).enumerate() {
-        for (pixel, (first, weights)) in row.iter_mut().zip(&across) {
-            for (i, weight) in (y * image.width + first..).zip(weights) {
-                for (sum, channel) in pixel.iter_mut().zip([r, g, b, alpha]) {
-                    *sum += weight * channel[i];
-                }
-            }
-        }
-    }
-    let mut pixels = vec![[0.0; 4]; width * height];
-    for (row, (first, weights)) in pixels.chunks_exact_mut(width).zip(&down) {
-        for (source, weight) in rows[first * width..].chunks_exact(width).zip(weights) {
-            for (pixel, source) in row.iter_mut().zip(source) {
-                for (sum, value) in pixel.iter_mut().zip(source) {
-                    *sum += weight * value;
-                }
-            }
-        }
-    }
-    Some(pixels)
+/// A picture at a place of a figure, in whole pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedPicture {
+    /// Left and upper end.
+    pub corner: [usize; 2],
+    /// Width and height to which it is scaled.
+    pub size: [usize; 2],
+    /// The picture.
+    pub image: Image,
 }
 
-/// Divides `from` pixels into `to` equal parts. Returns, for each part, its first pixel, and the shares of the part in
-/// this pixel and the following ones.
-fn shares(from: usize, to: usize) -> Vec<(usize, Vec<f64>)> {
-    // In units of 1/to of a pixel all ends are integers, so no share is lost to rounding.
-    (0..to)
-        .map(|part| {
-            let (begin, end) = (part * from, (part + 1) * from);
-            let (first, last) = (begin / to, end.div_ceil(to));
-            let share = |pixel: usize| end.min((pixel + 1) * to) - begin.max(pixel * to);
-            (first, (first..last).map(|pixel| share(pixel) as f64 / from as f64).collect())
-        })
-        .collect()
+/// Lays pictures over each other on a background, which is linear and straight. Each is scaled to its size, and clipped
+/// to the picture that is made. Its only layer is `beauty`.
+///
+/// # Errors
+/// [`OutputError::NoColor`] for a picture without colours, and no memory for the pixels.
+pub fn lay_out(size: [usize; 2], background: Rgba, pictures: &[PlacedPicture]) -> Result<Picture, OutputError> {
+    room(None, size, PIXEL)?;
+    let mut canvas = Canvas::new(size, background);
+    for (i, PlacedPicture { corner, size, image }) in pictures.iter().enumerate() {
+        let pixels = scaled(image, size[0], size[1]);
+        let pixels =
+            pixels.ok_or_else(|| OutputError::NoColor { name: format!("picture {i}"), found: image.names() })?;
+        canvas.lay(&pixels, size[0], *corner);
+    }
+    Ok(canvas.into_picture())
 }
 
-/// An opaque linear picture to compose a sheet on.
-struct SheetCanvas {
-    width: usize,
-    height: usize,
-    channels: [Vec<f64>; 3],
-}
-
-impl SheetCanvas {
-    fn white(width: usize, height: usize) -> Self {
-        Self { width, height, channels: [0, 1, 2].map(|_| vec![1.0; width * height]) }
-    }
-
-    /// Composites premultiplied rows of `width` pixels, the first pixel at `corner`.
-    fn lay(&mut self, pixels: &[[f64; 4]], width: usize, corner: [usize; 2]) {
-        for (y, row) in pixels.chunks_exact(width).enumerate() {
-            let start = (corner[1] + y) * self.width + corner[0];
-            for (i, &[r, g, b, a]) in (start..).zip(row) {
-                for (channel, c) in self.channels.iter_mut().zip([r, g, b]) {
-                    channel[i] = c + (1.0 - a) * channel[i];
-                }
-            }
-        }
-    }
-
-    /// Writes a line of text, centred in a box below `corner`, with capitals `cap` pixels high.
-    fn write(&mut self, text: &str, corner: [usize; 2], size: [usize; 2], cap: usize) {
-        let scale = cap as f64 / CAP_HEIGHT;
-        let text = fit(text, size[0] as f64 / scale - WEIGHT);
-        let left = (0.5 * (size[0] as f64 - width(&text) * scale)).round();
-        // The space above the capitals equals that below the descenders. Whole pixels keep level strokes sharp.
-        let baseline = (0.5 * (size[1] as f64 + (CAP_HEIGHT - DESCENT) * scale)).round();
-        let lines: Vec<Vec<[f64; 2]>> = strokes(&text)
-            .into_iter()
-            .map(|line| line.into_iter().map(|[x, y]| [left + x * scale, baseline - y * scale]).collect())
-            .collect();
-        let ink = srgb_to_linear(INK);
-        let pixels: Vec<[f64; 4]> = coverage(size[0], size[1], &lines, WEIGHT * scale)
-            .into_iter()
-            .map(|a| [a * ink, a * ink, a * ink, a])
-            .collect();
-        self.lay(&pixels, size[0], corner);
-    }
-
-    fn into_picture(self) -> Picture {
-        let opaque = vec![1.0; self.width * self.height];
-        let channels = self.channels.into_iter().chain([opaque]).collect();
-        Picture { width: self.width, height: self.height, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
-    }
+/// Writes a line of text, centred in a box below `corner`, with capitals `cap` pixels high.
+fn write(canvas: &mut Canvas, text: &str, corner: [usize; 2], size: [usize; 2], cap: usize) {
+    let scale = cap as f64 / CAP_HEIGHT;
+    let text = fit(text, size[0] as f64 / scale - WEIGHT);
+    let left = (0.5 * (size[0] as f64 - width(&text) * scale)).round();
+    // The space above the capitals equals that below the descenders. Whole pixels keep level strokes sharp.
+    let baseline = (0.5 * (size[1] as f64 + (CAP_HEIGHT - DESCENT) * scale)).round();
+    let lines: Vec<Vec<[f64; 2]>> = strokes(&text)
+        .into_iter()
+        .map(|line| line.into_iter().map(|[x, y]| [left + x * scale, baseline - y * scale]).collect())
+        .collect();
+    let ink = srgb_to_linear(INK);
+    let pixels: Vec<[f64; 4]> = coverage(size[0], size[1], &lines, WEIGHT * scale)
+        .into_iter()
+        .map(|a| [a * ink, a * ink, a * ink, a])
+        .collect();
+    canvas.lay(&pixels, size[0], corner);
 }
 
 #[cfg(test)]
@@ -196,25 +153,6 @@ mod tests {
         let opacity = vec![alpha; plane.len()];
         let channels = [("R", &plane), ("G", &plane), ("B", &plane), ("A", &opacity)];
         Image { width, height, channels: channels.map(|(n, v)| (n.to_string(), v.clone())).into() }
-    }
-
-    #[test]
-    fn shares_by_hand() {
-        // Five pixels to two: 2½ each. Two to three: ⅔ each.
-        assert_eq!(shares(5, 2), [(0, vec![0.4, 0.4, 0.2]), (2, vec![0.2, 0.4, 0.4])]);
-        assert_eq!(shares(2, 3), [(0, vec![1.0]), (0, vec![0.5, 0.5]), (1, vec![1.0])]);
-        assert_eq!(shares(3, 3), [(0, vec![1.0]), (1, vec![1.0]), (2, vec![1.0])]);
-    }
-
-    #[test]
-    fn scaling_keeps_the_mean() {
-        let source = image(7, 5, |x, y| (x * 3 + y * y) as f64 / 40.0, 1.0);
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-        for (w, h) in [(3, 2), (7, 5), (16, 11)] {
-            let pixels: Vec<f64> = scaled(&source, w, h).unwrap().iter().map(|p| p[0]).collect();
-            // Some hundred roundings of numbers below 1.
-            assert!((mean(&pixels) - mean(&source.channels[0].1)).abs() < 1e-14);
-        }
     }
 
     #[test]

@@ -1,0 +1,321 @@
+//! Figures: several scenes on one page, with letters, captions and insets.
+//!
+//! A figure is arranged from the sizes of its panels. Each panel is then drawn in its own place's size, and all pictures
+//! and marks are put on one page, which is written like the page of one scene.
+
+use crate::Failure;
+use crate::annotating::plain;
+use crate::drawing::{Frame, WriteReport, write_picture};
+use crate::job::{Job, background_color, figure_provenance};
+use crate::marking::add;
+use drypoint_output::read::Image;
+use drypoint_output::sheet::{PlacedPicture, lay_out};
+use drypoint_output::text::{font::extent, wrapped};
+use drypoint_output::{OutputError, paint};
+use drypoint_reference::figure::{PanelGrid, PanelSize};
+use drypoint_scene::glam::DVec2;
+use drypoint_scene::marks::{INCH, Layer, Marks, Page, Pen, Text};
+use drypoint_scene::picture::{LayerKind, Picture, Provenance};
+use drypoint_scene::tables::{Background, Corner, Figure, Length, Panel, PictureSettings, Scene};
+use std::path::Path;
+
+/// The size of the title, in sizes of the text.
+const TITLE: f64 = 1.4;
+
+/// The space between a picture and its text, in sizes of the text.
+const ABOVE_TEXT: f64 = 0.3;
+
+/// The width of the frames of insets, in mm.
+const FRAME: f64 = 0.2;
+
+/// A figure whose panels have their places.
+pub struct FigureLayout<'a> {
+    figure: &'a Figure,
+    page: Page,
+    /// Width and height in pixels, without the page's margin.
+    size: [usize; 2],
+    /// Width and height of a pixel, in mm.
+    pixel: DVec2,
+    places: Vec<PanelPlace>,
+    texts: Vec<Text>,
+}
+
+/// The place of a panel or an inset, in pixels of the figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PanelPlace {
+    /// Left and upper end.
+    pub corner: [usize; 2],
+    /// Width and height.
+    pub size: [usize; 2],
+    /// Whether it lies over the panel before it.
+    pub is_inset: bool,
+}
+
+/// What a panel shows.
+#[derive(Clone, Debug, Default)]
+pub struct DrawnPanel {
+    /// Pixels; none: the figure's background.
+    pub picture: Option<Image>,
+    /// Marks over the pixels, on a page that is the panel.
+    pub marks: Option<Marks>,
+    /// The provenance of a drawn scene.
+    pub provenance: Option<Provenance>,
+}
+
+impl DrawnPanel {
+    /// The first frame of a scene, which was fitted to its place.
+    ///
+    /// # Errors
+    /// There is no memory for the pixels.
+    pub fn of(job: &Job, frame: Frame, layout: &FigureLayout<'_>) -> Result<Self, Failure> {
+        let background = background_color(&job.scene).filter(|color| *color != layout.figure.figure.background);
+        let picture = match (&frame.picture, background.filter(|_| !layout.is_plotted())) {
+            (Some(picture), _) => Some(Image::from(picture)),
+            (None, Some(color)) => {
+                let blank = paint::blank(&Page::of(&job.scene), Some(color));
+                Some(Image::from(&blank.map_err(|error| Failure::picture(&error, "a panel"))?))
+            }
+            (None, None) => None,
+        };
+        Ok(Self { picture, marks: frame.marks, provenance: Some(job.provenance()) })
+    }
+}
+
+impl<'a> FigureLayout<'a> {
+    /// Arranges a figure. `sizes` has width and height, in any unit, of the pictures of [`Figure::sources`].
+    ///
+    /// # Errors
+    /// A page of no or too many pixels.
+    pub fn new(figure: &'a Figure, sizes: &[[usize; 2]]) -> Result<Self, Failure> {
+        let settings = &figure.figure;
+        let ruler = Ruler::new(figure);
+        let grid =
+            PanelGrid { width: ruler.width, columns: settings.columns, gap: ruler.pixels(ruler.mm(settings.gap)) };
+        let spans: Vec<usize> = figure.panels.iter().map(|panel| panel.columns).collect();
+        let widths = grid.widths(&spans);
+        let size = ruler.mm(settings.size);
+        let title = ruler.block(settings.title.as_deref().unwrap_or_default(), TITLE * size, grid.width);
+        let caption = ruler.block(settings.caption.as_deref().unwrap_or_default(), size, grid.width);
+        let numbered = figure.panels.iter().enumerate().zip(&widths);
+        let captions: Vec<TextBlock> = numbered
+            .map(|((i, panel), width)| {
+                let words = settings.letters.letter(i).into_iter().chain(panel.caption.clone());
+                ruler.block(&words.collect::<Vec<_>>().join(" "), size, *width)
+            })
+            .collect();
+        // Panels in rows, with their insets.
+        let mut sizes = sizes.iter().copied();
+        let panels: Vec<Vec<PanelPlace>> = figure
+            .panels
+            .iter()
+            .zip(&widths)
+            .map(|(panel, &width)| with_insets(panel, width, grid.gap / 2, &mut sizes))
+            .collect();
+        let sized = panels.iter().zip(&spans).zip(&captions).map(|((places, &columns), caption)| PanelSize {
+            columns,
+            height: places[0].size[1],
+            text: caption.height,
+        });
+        let (placed, bottom) = grid.place(&sized.collect::<Vec<_>>(), title.height);
+        let in_pixels = [grid.width, bottom + caption.height];
+        let margin = figure.page.as_ref().map_or(0.0, |page| ruler.mm(page.margin));
+        let extent = DVec2::from(in_pixels.map(|n| n as f64)) * ruler.pixel;
+        let page = Page::in_millimetres(extent, margin, settings.dpi);
+        paint::pixels(&page).map_err(|error| wrong(&error, figure))?;
+        // Everything at its place.
+        let (places, texts) = (Vec::new(), Vec::new());
+        let mut layout = Self { figure, page, size: in_pixels, pixel: ruler.pixel, places, texts };
+        layout.write(&title, [0, 0], None);
+        layout.write(&caption, [0, bottom], None);
+        for (((places, caption), at), width) in panels.iter().zip(&captions).zip(&placed).zip(&widths) {
+            let [left, top] = at.corner;
+            layout.places.extend(places.iter().map(|place| {
+                let [x, y] = place.corner;
+                PanelPlace { corner: [left + x, top + y], ..*place }
+            }));
+            // A single line stands in the middle.
+            layout.write(caption, [left, at.text], (caption.lines.len() == 1).then_some(*width));
+        }
+        Ok(layout)
+    }
+
+    /// The places of the pictures of [`Figure::sources`].
+    pub fn places(&self) -> &[PanelPlace] {
+        &self.places
+    }
+
+    /// Gives a scene the size of its place. Its page is the panel, and the figure's settings hold for the page.
+    pub fn fit(&self, scene: &mut Scene, place: &PanelPlace) {
+        let [width, height] = place.size;
+        let lengths =
+            [width as f64 * self.pixel.x, height as f64 * self.pixel.y].map(|mm| Some(Length::Millimetres(mm)));
+        let picture = &mut scene.picture;
+        (picture.dpi, picture.size, picture.lengths) = (self.figure.figure.dpi, place.size, lengths);
+        picture.layers = vec![LayerKind::Beauty];
+        (scene.orbit, scene.page) = (None, self.figure.page.clone());
+        if let Some(page) = &mut scene.page {
+            page.margin = Length::Millimetres(0.0);
+        }
+    }
+
+    /// Puts what the panels show on one page, and writes it.
+    ///
+    /// # Errors
+    /// A picture without colours, and the errors of [`Frame::write`].
+    pub fn write_panels(&self, panels: Vec<DrawnPanel>, path: &Path) -> Result<WriteReport, Failure> {
+        let provenances: Vec<_> = panels.iter().filter_map(|panel| panel.provenance.clone()).collect();
+        let (picture, marks) = self.compose(panels)?;
+        write_picture(picture, marks, &self.scene(), figure_provenance(self.figure, &provenances), path)
+    }
+
+    /// The pixels and the marks of the page. Without pixels of panels there are none.
+    fn compose(&self, panels: Vec<DrawnPanel>) -> Result<(Option<Picture>, Marks), Failure> {
+        let mut pictures = Vec::new();
+        let mut marks = Marks { page: self.page, layers: Vec::new() };
+        for (place, panel) in self.places.iter().zip(panels) {
+            let PanelPlace { corner, size, is_inset } = *place;
+            pictures.extend(panel.picture.map(|image| PlacedPicture { corner, size, image }));
+            let corners = [corner, [corner[0] + size[0], corner[1] + size[1]]].map(|at| self.on_page(at));
+            if is_inset {
+                marks.cut_out(corners);
+            }
+            if let Some(mut drawn) = panel.marks {
+                drawn.shift(corners[0]);
+                drawn.layers.into_iter().for_each(|layer| add(&mut marks.layers, layer));
+            }
+            if is_inset {
+                let [DVec2 { x: left, y: top }, DVec2 { x: right, y: bottom }] = corners;
+                let frame = [(left, top), (right, top), (right, bottom), (left, bottom)].map(DVec2::from);
+                add(
+                    &mut marks.layers,
+                    Layer { lines: vec![plain(&frame, FRAME, 1.0, true)], ..Layer::new(self.pen()) },
+                );
+            }
+        }
+        add(&mut marks.layers, Layer { texts: self.texts.clone(), ..Layer::new(self.pen()) });
+        marks.settle();
+        let background = self.figure.figure.background;
+        let picture = (!pictures.is_empty()).then(|| lay_out(self.size, background, &pictures)).transpose();
+        Ok((picture.map_err(|error| wrong(&error, self.figure))?, marks))
+    }
+
+    /// A scene with the page of the figure, by which it is written.
+    fn scene(&self) -> Scene {
+        let settings = &self.figure.figure;
+        let picture = self.page.picture();
+        Scene {
+            picture: PictureSettings {
+                dpi: settings.dpi,
+                size: self.size,
+                lengths: [picture.x, picture.y].map(|mm| Some(Length::Millimetres(mm))),
+                background: Background::Color(settings.background),
+                ..PictureSettings::default()
+            },
+            page: self.figure.page.clone(),
+            given: self.figure.given.clone(),
+            ..Scene::default()
+        }
+    }
+
+    /// Adds lines of text from a place in pixels, each in the middle of a width if one is given.
+    fn write(&mut self, block: &TextBlock, at: [usize; 2], width: Option<usize>) {
+        let size = block.size;
+        let line = extent("", size);
+        let start = self.on_page(at) + DVec2::new(0.0, ABOVE_TEXT * size + line.ascent);
+        for (i, characters) in block.lines.iter().enumerate() {
+            let free = width.map_or(0.0, |width| width as f64 * self.pixel.x - extent(characters, size).advance);
+            let at = start + DVec2::new(free.max(0.0) / 2.0, i as f64 * (line.ascent + line.descent));
+            self.texts.push(Text { characters: characters.clone(), at, size, opacity: 1.0 });
+        }
+    }
+
+    /// The place of a pixel's corner on the page, in mm.
+    fn on_page(&self, at: [usize; 2]) -> DVec2 {
+        DVec2::splat(self.page.margin) + DVec2::from(at.map(|n| n as f64)) * self.pixel
+    }
+
+    /// The pen of texts and of the frames of insets.
+    fn pen(&self) -> Pen {
+        Pen { number: 1, name: "figure".into(), width: FRAME, color: self.figure.figure.color }
+    }
+
+    fn is_plotted(&self) -> bool {
+        self.figure.page.as_ref().is_some_and(|page| page.plotter)
+    }
+}
+
+/// Lengths of a figure in mm and in pixels.
+struct Ruler {
+    dpi: f64,
+    /// Width of the figure in pixels.
+    width: usize,
+    /// Width and height of a pixel, in mm.
+    pixel: DVec2,
+}
+
+/// Text in lines.
+struct TextBlock {
+    lines: Vec<String>,
+    size: f64,
+    /// Height in pixels, with the space above it; 0 without text.
+    height: usize,
+}
+
+impl Ruler {
+    fn new(figure: &Figure) -> Self {
+        let ruler = Self { dpi: figure.figure.dpi, width: 1, pixel: DVec2::splat(INCH / figure.figure.dpi) };
+        let mm = ruler.mm(figure.figure.width);
+        let width = ruler.pixels(mm).max(1);
+        // A width in mm is exact on the page, and pixels are stretched to fill it.
+        Self { width, pixel: DVec2::new(mm / width as f64, ruler.pixel.y), ..ruler }
+    }
+
+    fn mm(&self, length: Length) -> f64 {
+        Page::in_pixels([1, 1], 0.0, self.dpi).length(length).unwrap_or_default()
+    }
+
+    fn pixels(&self, mm: f64) -> usize {
+        (mm / INCH * self.dpi).round_ties_even() as usize
+    }
+
+    /// Breaks text into lines of at most a width in pixels.
+    fn block(&self, text: &str, size: f64, width: usize) -> TextBlock {
+        let lines = wrapped(text, size, width as f64 * self.pixel.x);
+        let line = extent("", size);
+        let mm = lines.len() as f64 * (line.ascent + line.descent) + ABOVE_TEXT * size;
+        let height = if lines.is_empty() { 0 } else { (mm / self.pixel.y).ceil() as usize };
+        TextBlock { lines, size, height }
+    }
+}
+
+/// A panel at the origin, then its insets, `inset` pixels from its edges. `sizes` gives the proportions of the pictures.
+fn with_insets(
+    panel: &Panel,
+    width: usize,
+    inset: usize,
+    sizes: &mut dyn Iterator<Item = [usize; 2]>,
+) -> Vec<PanelPlace> {
+    let mut scaled = |width: usize| {
+        let [w, h] = sizes.next().unwrap_or([1, 1]).map(|n| n.max(1) as f64);
+        [width, (width as f64 * h / w).round().max(1.0) as usize]
+    };
+    let own = scaled(width);
+    let mut places = vec![PanelPlace { corner: [0, 0], size: own, is_inset: false }];
+    for table in &panel.insets {
+        let size = scaled(((width as f64 * table.share).round() as usize).max(1));
+        let [right, bottom] = [0, 1].map(|axis| own[axis].saturating_sub(size[axis] + inset));
+        let corner = match table.corner {
+            Corner::TopLeft => [inset, inset],
+            Corner::TopRight => [right, inset],
+            Corner::BottomLeft => [inset, bottom],
+            Corner::BottomRight => [right, bottom],
+        };
+        places.push(PanelPlace { corner, size, is_inset: true });
+    }
+    places
+}
+
+/// The failure of a page that cannot be painted.
+fn wrong(error: &OutputError, figure: &Figure) -> Failure {
+    Failure::picture(error, figure.given.position("figure.width"))
+}

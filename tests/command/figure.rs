@@ -1,0 +1,111 @@
+//! `figure`: several scenes on one page.
+
+use crate::folder::Folder;
+use drypoint::output::read::{Image, read_image};
+
+fn figure(folder: &Folder, keys: &str, panels: &str) {
+    let text = format!("drypoint = 1\n[figure]\ndpi = 254\nletters = \"none\"\ngap = \"0.8 mm\"\n{keys}\n{panels}");
+    folder.write("figure.toml", text);
+}
+
+/// Whether a part of a figure shows a picture, pixel by pixel.
+fn shows(figure: &Image, [left, top]: [usize; 2], picture: &Image) -> bool {
+    let [all, own] = [figure, picture].map(|image| image.colors().unwrap().rgb);
+    (0..picture.width * picture.height).all(|i| {
+        let at = (top + i / picture.width) * figure.width + left + i % picture.width;
+        (0..3).all(|c| all[c][at] == own[c][i])
+    })
+}
+
+/// Ten pixels are a millimetre. Panels of 48 px stand 8 px apart, and each is the picture of its scene in that size.
+#[test]
+fn panels_are_the_pictures_of_their_scenes() {
+    let folder = Folder::new();
+    folder.scene("");
+    let panel = "[[panel]]\nscene = \"scene.toml\"\n";
+    let turned = "set = [\"camera.direction=[1, 0, 0]\"]\n";
+    let inset = "[[panel.inset]]\nscene = \"scene.toml\"\nshare = 0.5\ncorner = \"top-left\"\n";
+    figure(&folder, "width = \"10.4 mm\"", &format!("{panel}{panel}{turned}{panel}columns = 2\n{inset}"));
+    folder.good("figure figure.toml -o page.png");
+    let render = |name: &str, size: &str, more: &str| {
+        folder.good(&format!("render scene.toml --set picture.dpi=254 --size {size} {more} -o {name}.png"));
+        read_image(&folder.path(&format!("{name}.png"))).unwrap()
+    };
+    let page = read_image(&folder.path("page.png")).unwrap();
+    // The scene is 24×16: panels of 48×32, and one of 104×69 with an inset of 52×35, four pixels from its corner.
+    assert_eq!([page.width, page.height], [104, 32 + 8 + 69]);
+    assert!(shows(&page, [0, 0], &render("a", "48x32", "")));
+    assert!(shows(&page, [56, 0], &render("b", "48x32", "--set camera.direction=[1,0,0]")));
+    assert!(!shows(&page, [56, 0], &render("a", "48x32", "")));
+    let inner = render("inset", "52x35", "");
+    let [all, own] = [&page, &inner].map(|image| image.colors().unwrap().rgb[0]);
+    // The frame of 0.2 mm covers a pixel on either side of the inset's edge.
+    for y in 2..33 {
+        for x in 2..50 {
+            assert_eq!(all[(40 + 4 + y) * 104 + 4 + x], own[y * 52 + x], "{x} {y}");
+        }
+    }
+    // With the first panel's camera the second one shows its picture.
+    folder.good("figure figure.toml --set figure.camera=shared -o shared.png");
+    assert!(shows(&read_image(&folder.path("shared.png")).unwrap(), [56, 0], &render("a", "48x32", "")));
+    // Pictures as they are.
+    figure(&folder, "width = \"4.8 mm\"\ncolumns = 1", "[[panel]]\npicture = \"a.png\"\n");
+    folder.good("figure figure.toml -o copy.png");
+    let copy = read_image(&folder.path("copy.png")).unwrap();
+    assert_eq!([copy.width, copy.height], [48, 32]);
+    assert!(shows(&copy, [0, 0], &render("a", "48x32", "")));
+}
+
+/// A width in mm is exact on the page, and everything is drawn with the same bytes again.
+#[test]
+fn a_page_has_its_width_in_every_format() {
+    let folder = Folder::new();
+    folder.scene("");
+    let keys =
+        "width = \"180 mm\"\ntitle = \"Two tori\"\ncaption = \"Seen from two sides.\"\n[page]\nmargin = \"10 mm\"";
+    figure(&folder, keys, "[[panel]]\nscene = \"scene.toml\"\ncaption = \"front\"\n");
+    for name in ["page.svg", "page.pdf", "page.png"] {
+        folder.good(&format!("figure figure.toml --set figure.dpi=31 -o {name}"));
+        let bytes = folder.read(name);
+        folder.good(&format!("figure figure.toml --set figure.dpi=31 -o {name}"));
+        assert!(folder.read(name) == bytes, "{name}");
+    }
+    let svg = String::from_utf8(folder.read("page.svg")).unwrap();
+    assert!(svg.contains("width=\"200mm\""), "{}", &svg[..300]);
+    for words in ["Two tori", "Seen from two sides.", "front"] {
+        assert!(svg.contains(&format!(">{words}<")), "{words}");
+    }
+}
+
+#[test]
+fn faults_of_a_figure_are_told() {
+    let folder = Folder::new();
+    folder.scene("");
+    figure(&folder, "columns = 2", "[[panel]]\n[[panel]]\nscene = \"gone.toml\"\ncolumns = 3\n");
+    let said = folder.refused("figure figure.toml -o page.png");
+    let wanted = [
+        "error: panel[0].scene is missing\n  at: figure.toml:7:1, key panel[0].scene\n  try: write scene = \"head.toml\", or \
+         picture = \"head.png\"\n",
+        "error: gone.toml is not there\n  at: figure.toml:9:1, key panel[1].scene\n  try: write another path; \
+         DRYPOINT_DATA lists no folder with it\n",
+        "error: a panel takes 3 columns, and the figure has 2\n  at: figure.toml:10:1, key panel[1].columns\n  try: take \
+         fewer, or raise figure.columns\n",
+    ];
+    assert_eq!(said, wanted.concat());
+    // Keys of a scene have their place in the figure.
+    figure(&folder, "", "[[panel]]\nscene = \"scene.toml\"\nset = [\"camera.fav=3\"]\n");
+    let said = folder.refused("figure figure.toml -o page.png");
+    assert!(
+        said.starts_with("error: [camera] has no key \"fav\"\n  at: figure.toml:9:1, key panel[0].set, camera.fav=3"),
+        "{said}"
+    );
+    // A figure is no scene, and no input is overwritten.
+    let said = folder.refused("render figure.toml");
+    assert!(said.starts_with("error: this is a figure of several scenes, and one scene is wanted\n"), "{said}");
+    figure(&folder, "", "[[panel]]\npicture = \"a.png\"\n");
+    folder.good("render scene.toml -o a.png");
+    let said = folder.refused("figure figure.toml -o a.png");
+    assert!(said.starts_with("error: this file is read too, and would be overwritten\n"), "{said}");
+    let said = folder.refused("figure figure.toml --set figure.dpi=1e6 -o b.png");
+    assert!(said.contains("key figure.width"), "{said}");
+}
