@@ -4,7 +4,7 @@ use crate::files::in_docs;
 use drypoint::job::Job;
 use drypoint::output::compare::{CompareOptions, compare};
 use drypoint::output::read::Image;
-use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::file::{Overrides, is_figure, parse, parse_figure};
 use std::path::{Path, PathBuf};
 
 /// Folders that hold no pages: build outputs, data from elsewhere, and templates, whose links start in `docs/`.
@@ -52,7 +52,11 @@ fn scenes_on_pages_are_scenes() {
     let mut read = 0;
     for (page, text) in pages() {
         for scene in blocks(&text, "toml").into_iter().filter_map(scene) {
-            if let Err(faults) = parse(&scene, &page, &Overrides::default()) {
+            let read_as_such = match is_figure(&scene) {
+                true => parse_figure(&scene, &page, &Overrides::default()).map(drop),
+                false => parse(&scene, &page, &Overrides::default()).map(drop),
+            };
+            if let Err(faults) = read_as_such {
                 panic!("{}:\n{scene}\n{faults}", page.display());
             }
             read += 1;
