@@ -90,9 +90,14 @@ impl Check {
     }
 
     /// Enters an item of a list and returns the list's key.
-    fn enter_item(&mut self, i: usize) -> String {
+    pub(crate) fn enter_item(&mut self, i: usize) -> String {
         let inner = format!("{}[{i}]", self.path);
         std::mem::replace(&mut self.path, inner)
+    }
+
+    /// Returns from an item to its list, whose key [`Check::enter_item`] gave.
+    pub(crate) fn leave(&mut self, list: String) {
+        self.path = list;
     }
 
     /// Notes that the scene says the key that the walk is at.
@@ -221,12 +226,6 @@ impl Check {
         self.fault(&item.place, Problem::Value { found: item.found(), expected, nearest });
     }
 
-    /// Reports a part of the format that this version does not have.
-    pub(crate) fn not_built<T>(&mut self, place: &Place, what: String) -> Option<T> {
-        self.fault(place, Problem::NotBuilt { what });
-        None
-    }
-
     /// A path that an item gives: relative to the scene's folder, or to the working directory if the command line gave
     /// it ([SCN-2]).
     pub(crate) fn resolve(&self, path: &str, place: &Place) -> PathBuf {
@@ -257,10 +256,16 @@ impl Check {
             return self.wrong(item, head.expected());
         };
         let is_supplied = supplied.is_some();
-        let mut result = supplied.unwrap_or_else(table.empty);
+        let mut result = match supplied {
+            Some(supplied) => supplied,
+            None => (table.empty)(),
+        };
         let dropped = self.alternatives(&head, entries);
         let others = self.others(&head, entries);
-        for key in table.keys.iter().filter(|key| !dropped.contains(key.name)) {
+        for key in table.keys {
+            if dropped.contains(key.name) {
+                continue;
+            }
             // A preset's table of which a key is overridden is still the preset's.
             let is_over = |result: &S| key.field.write(result) != key.field.write(&(table.empty)());
             match entries.get(key.name) {
@@ -378,8 +383,10 @@ impl Check {
 /// Returns the table with one key at its default.
 fn without<S>(table: &Table<S>, out: &Key<S>, from: &S) -> S {
     let mut rest = (table.empty)();
-    for key in table.keys.iter().filter(|key| key.name != out.name) {
-        key.field.copy(from, &mut rest);
+    for key in table.keys {
+        if key.name != out.name {
+            key.field.copy(from, &mut rest);
+        }
     }
     if let Some(open) = table.open {
         open.copy(from, &mut rest);

@@ -196,8 +196,7 @@ macro_rules! table {
     };
 }
 
-/// An enum whose values have names in scene files, which are its serialization, and their `KIND`. Names after `later`
-/// are not built yet.
+/// An enum whose values have names in scene files, which are its serialization, and their `KIND`.
 ///
 /// ```text
 /// choices! {
@@ -213,7 +212,6 @@ macro_rules! choices {
     (
         $(#[$meta:meta])*
         $visible:vis enum $choice:ident { $($(#[doc = $doc:literal])+ $value:ident = $name:literal,)+ }
-        $(later $later:expr)?
     ) => {
         $(#[$meta])*
         #[derive(serde::Serialize)]
@@ -228,12 +226,9 @@ macro_rules! choices {
                     Self::$value,
                     concat!($($doc, "\n"),+),
                 )),+],
-                later: $crate::document::declare::choices!(later $($later)?),
             };
         }
     };
-    (later $later:expr) => { $later };
-    (later) => { &[] };
 }
 
 pub(crate) use {choices, keys, table};

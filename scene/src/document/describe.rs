@@ -58,9 +58,14 @@ impl Head {
 impl<S> Table<S> {
     /// The description without the struct.
     pub(crate) fn head(&self) -> Head {
+        // Loops, which unlike closures are compiled with their table alone.
+        let mut names = Vec::with_capacity(self.keys.len());
+        for key in self.keys {
+            names.push(key.name);
+        }
         Head {
             title: self.title,
-            names: self.keys.iter().map(|key| key.name).collect(),
+            names,
             most_others: self.open.map(Named::most),
             later: self.later,
             instead: self.instead,
@@ -314,23 +319,21 @@ impl<S> Table<S> {
     /// The description alone.
     pub(crate) fn section(&'static self) -> Section {
         let empty = (self.empty)();
-        let key = |key: &'static Key<S>| SectionKey {
-            name: key.name,
-            doc: first_paragraph(key.doc),
-            tag: key.tag,
-            absent: key.absent,
-            required: key.required,
-            needs: key.needs,
-            default: if key.required { None } else { key.field.write(&empty) },
-            shape: key.field.shape(),
-        };
-        Section {
-            title: self.title,
-            doc: self.doc,
-            keys: self.keys.iter().map(key).collect(),
-            open: self.open.map(|open| OpenKeys { doc: open.doc(), shape: open.shape(), most: open.most() }),
-            later: self.later,
+        let mut keys = Vec::with_capacity(self.keys.len());
+        for key in self.keys {
+            keys.push(SectionKey {
+                name: key.name,
+                doc: first_paragraph(key.doc),
+                tag: key.tag,
+                absent: key.absent,
+                required: key.required,
+                needs: key.needs,
+                default: if key.required { None } else { key.field.write(&empty) },
+                shape: key.field.shape(),
+            });
         }
+        let open = self.open.map(|open| OpenKeys { doc: open.doc(), shape: open.shape(), most: open.most() });
+        Section { title: self.title, doc: self.doc, keys, open, later: self.later }
     }
 }
 

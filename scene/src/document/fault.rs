@@ -41,9 +41,9 @@ pub enum Problem {
         /// All that is known there.
         known: Vec<String>,
     },
-    /// A table, key or value of the format that this version does not have yet.
+    /// A table or key of the format that this version does not have yet.
     NotBuilt {
-        /// The table, key or value, in words.
+        /// The table or key, in words.
         what: String,
     },
     /// A value of the wrong type, unit, range or name.

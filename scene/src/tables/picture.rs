@@ -187,7 +187,6 @@ const LAYER: Choice<LayerKind> = Choice {
         ChoiceOption::new("first.curvature.KV", LayerKind::FirstCurvatureAlongView, "κ_v there, as [contours] has it."),
         ChoiceOption::new("counts", LayerKind::Counts, "Samples evaluated on the ray."),
     ],
-    later: &[],
 };
 
 /// A layer by its name. The name of a halo's or an object's layer has the index in the list, from 0.

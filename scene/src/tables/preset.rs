@@ -100,7 +100,6 @@ pub(super) const PRESETS: Choice<Preset> = Choice {
             "Black lines and white gaps by halos alone, as in Fig. 10 (d) of Bruckner and Gröller.",
         ),
     ],
-    later: &[],
 };
 
 impl Preset {

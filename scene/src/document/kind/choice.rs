@@ -10,8 +10,6 @@ use serde_json::{Value as Json, json};
 /// One of several names, each for a value.
 pub(crate) struct Choice<T: 'static> {
     pub(crate) options: &'static [ChoiceOption<T>],
-    /// Names of later versions.
-    pub(crate) later: &'static [&'static str],
 }
 
 /// One name of a [`Choice`].
@@ -27,30 +25,31 @@ impl<T> ChoiceOption<T> {
     }
 }
 
+/// A name with its documentation.
+type NameDoc = (&'static str, &'static str);
+
 impl<T> Choice<T> {
-    fn names(&self) -> impl Iterator<Item = &'static str> {
-        self.options.iter().map(|option| option.name)
+    /// The names with their documentation. What is made of them is compiled once, not for each type.
+    fn list(&self) -> Vec<NameDoc> {
+        let mut list = Vec::with_capacity(self.options.len());
+        for option in self.options {
+            list.push((option.name, option.doc));
+        }
+        list
     }
 }
 
 impl<T: Sync> Shape for Choice<T> {
     fn expected(&self) -> String {
-        let names: Vec<String> = self.names().map(|name| format!("{name:?}")).collect();
-        match &names[..] {
-            [one] => one.clone(),
-            [all @ .., last] => format!("{} or {last}", all.join(", ")),
-            [] => "nothing".into(),
-        }
+        expected(&self.list())
     }
 
     fn schema(&self) -> Json {
-        let options: Vec<Json> =
-            self.options.iter().map(|o| json!({ "const": o.name, "description": first_paragraph(o.doc) })).collect();
-        json!({ "type": "string", "oneOf": options })
+        schema(&self.list())
     }
 
     fn options(&self) -> Vec<(&'static str, String)> {
-        self.options.iter().map(|option| (option.name, first_paragraph(option.doc))).collect()
+        self.list().into_iter().map(|(name, doc)| (name, first_paragraph(doc))).collect()
     }
 }
 
@@ -58,20 +57,42 @@ impl<T: Copy + PartialEq + Sync> Kind for Choice<T> {
     type Of = T;
 
     fn read(&self, item: &Item, check: &mut Check) -> Option<T> {
-        let Some(name) = item.text() else { return check.wrong(item, self.expected()) };
-        if let Some(option) = self.options.iter().find(|option| option.name == name) {
-            return Some(option.value);
-        }
-        if self.later.contains(&name) {
-            let what = format!("{} = {name:?}", check.key());
-            return check.not_built(&item.place, what);
-        }
-        check.wrong_name(item, self.expected(), nearest(name, self.names()).map(Into::into))
+        let chosen = chosen(&self.list(), item, check)?;
+        Some(self.options[chosen].value)
     }
 
     fn write(&self, value: &T) -> Out {
+        for option in self.options {
+            if option.value == *value {
+                return Out::Text(option.name.into());
+            }
+        }
         // A value without a name cannot be: the tests go through every one.
-        let name = self.options.iter().find(|option| option.value == *value).map_or("", |option| option.name);
-        Out::Text(name.into())
+        Out::Text(String::new())
     }
+}
+
+fn expected(list: &[NameDoc]) -> String {
+    let names: Vec<String> = list.iter().map(|(name, _)| format!("{name:?}")).collect();
+    match &names[..] {
+        [one] => one.clone(),
+        [all @ .., last] => format!("{} or {last}", all.join(", ")),
+        [] => "nothing".into(),
+    }
+}
+
+fn schema(list: &[NameDoc]) -> Json {
+    let options: Vec<Json> =
+        list.iter().map(|(name, doc)| json!({ "const": name, "description": first_paragraph(doc) })).collect();
+    json!({ "type": "string", "oneOf": options })
+}
+
+/// The place of an item's name in the list. None if the item is at fault; the fault is then already reported.
+fn chosen(list: &[NameDoc], item: &Item, check: &mut Check) -> Option<usize> {
+    let Some(name) = item.text() else { return check.wrong(item, expected(list)) };
+    let found = list.iter().position(|(known, _)| *known == name);
+    if found.is_some() {
+        return found;
+    }
+    check.wrong_name(item, expected(list), nearest(name, list.iter().map(|(known, _)| *known)).map(Into::into))
 }

@@ -49,14 +49,17 @@ impl<K: Kind> Kind for ListOf<K> {
         match item.list() {
             Some(items) if items.len() > self.most => check.too_many(&items[self.most].place, [items.len(), self.most]),
             Some(items) if !items.is_empty() => {
-                let read = |(i, item): (usize, &Item)| {
-                    check.within_item(i, |check| {
-                        check.note(&item.place);
-                        self.each.read(item, check)
-                    })
-                };
-                let values: Vec<Option<K::Of>> = items.iter().enumerate().map(read).collect();
-                values.into_iter().collect()
+                // Loops, which unlike closures are compiled with their kind alone.
+                let mut values = Vec::with_capacity(items.len());
+                for (i, item) in items.iter().enumerate() {
+                    let outer = check.enter_item(i);
+                    check.note(&item.place);
+                    if let Some(value) = self.each.read(item, check) {
+                        values.push(value);
+                    }
+                    check.leave(outer);
+                }
+                (values.len() == items.len()).then_some(values)
             }
             _ => check.wrong(item, self.expected()),
         }
@@ -71,28 +74,39 @@ impl<K: Kind> Kind for ListOf<K> {
             }
         }
         let mut values = Vec::new();
+        let mut is_sound = true;
         for (i, supplied) in supplied.into_iter().enumerate() {
             let value = match entries.get(&i.to_string()).map(|entry| &entry.item) {
                 None => Some(supplied),
                 Some(item) if item.value == Value::Off => continue,
-                Some(item) => check.within_item(i, |check| {
+                Some(item) => {
+                    let outer = check.enter_item(i);
                     check.note(&item.place);
-                    match item.is_way {
+                    let value = match item.is_way {
                         true => self.each.read_over(item, supplied, check),
                         false => self.each.read(item, check),
-                    }
-                }),
+                    };
+                    check.leave(outer);
+                    value
+                }
             };
-            values.push(value);
+            match value {
+                Some(value) => values.push(value),
+                None => is_sound = false,
+            }
         }
         // A list of tables at the top may lose its last one: it is then absent.
-        if values.is_empty() && check.key().contains('.') {
+        if values.is_empty() && is_sound && check.key().contains('.') {
             return check.wrong(item, self.expected());
         }
-        values.into_iter().collect()
+        is_sound.then_some(values)
     }
 
     fn write(&self, value: &Vec<K::Of>) -> Out {
-        Out::List(value.iter().map(|v| self.each.write(v)).collect())
+        let mut items = Vec::with_capacity(value.len());
+        for value in value {
+            items.push(self.each.write(value));
+        }
+        Out::List(items)
     }
 }

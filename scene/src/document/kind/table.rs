@@ -36,8 +36,16 @@ impl<S> Kind for TableOf<S> {
     }
 
     fn write(&self, value: &S) -> Out {
-        let keys = self.0.keys.iter().filter_map(|key| key.field.write(value).map(|out| (key.name.to_owned(), out)));
-        let open = self.0.open.map(|open| open.write(value)).unwrap_or_default();
-        Out::Table(keys.chain(open).collect())
+        // Loops, which unlike closures are compiled with their table alone.
+        let mut entries = Vec::new();
+        for key in self.0.keys {
+            if let Some(out) = key.field.write(value) {
+                entries.push((key.name.to_owned(), out));
+            }
+        }
+        if let Some(open) = self.0.open {
+            entries.append(&mut open.write(value));
+        }
+        Out::Table(entries)
     }
 }

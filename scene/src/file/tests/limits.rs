@@ -141,7 +141,7 @@ fn the_first_table_too_many_is_told_and_of_many_faults_the_first() {
 #[test]
 fn a_text_of_any_length_is_no_scene() {
     let told = said("a long text", || parse(&"#".repeat(LONGEST_TEXT + 1), Path::new("s"), &Overrides::default()));
-    assert!(told.starts_with("the scene cannot be read: it has 16777217 bytes, and a scene has at most 16777216\n"));
+    assert!(told.starts_with("the scene cannot be read: it has 16777217 bytes, and at most 16777216 are read\n"));
 }
 
 /// Every part asks for itself, and has a look of its own.

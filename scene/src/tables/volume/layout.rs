@@ -20,7 +20,6 @@ pub(super) const VOXEL_TYPE: Choice<VoxelType> = Choice {
         ChoiceOption::new("f32", VoxelType::F32, "IEEE 754 binary32."),
         ChoiceOption::new("f64", VoxelType::F64, "IEEE 754 binary64."),
     ],
-    later: &[],
 };
 
 /// World units between voxels.

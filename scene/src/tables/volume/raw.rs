@@ -21,7 +21,6 @@ const IS_BIG_ENDIAN: Choice<bool> = Choice {
         ChoiceOption::new("little", false, "Lowest byte first."),
         ChoiceOption::new("big", true, "Highest byte first."),
     ],
-    later: &[],
 };
 
 /// The description of `raw = { … }`.
