@@ -14,7 +14,7 @@ use drypoint_scene::annotations::AnnotationLayout;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen};
 use drypoint_scene::tables::{
-    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, PartName,
+    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, ObjectTable, PartName,
 };
 use drypoint_scene::view::View;
 use labels::LabelAnchors;
@@ -28,6 +28,8 @@ const MOST_POINTS: usize = 20_000;
 pub(crate) struct Annotating<'a> {
     job: &'a Job,
     page: Page,
+    /// The objects where they are in the frame.
+    pub(crate) objects: Vec<ObjectTable>,
     /// The places that labels lead to, found in the first frame.
     anchors: Option<LabelAnchors>,
     /// The labels of the frame before.
@@ -52,7 +54,8 @@ impl<'a> Annotating<'a> {
             RenderTarget::Points | RenderTarget::Strokes => false,
         };
         let is_drawn = is_shown && !job.scene.annotations.is_empty();
-        is_drawn.then(|| Self { job, page: Page::of(&job.scene), anchors: None, previous: None })
+        let objects = || job.scene.objects.clone();
+        is_drawn.then(|| Self { job, page: Page::of(&job.scene), objects: objects(), anchors: None, previous: None })
     }
 
     /// Returns the annotations that a camera sees. `renderer` is at this camera; without it nothing hides a line.
@@ -90,7 +93,7 @@ impl<'a> Annotating<'a> {
         let tables = self.tables();
         let mut layers = Vec::new();
         for (i, table) in tables.boxes.iter().enumerate().filter(|(_, table)| table.show == BoxShown::Always) {
-            let Some(corners) = self.job.corners(&table.of) else { continue };
+            let Some(corners) = self.corners_of(&table.of) else { continue };
             let pen = self.pen(&table.line, "box", &format!("box[{i}].pen"))?;
             let seen = self.seen(view, renderer.filter(|_| table.occluded), &pen);
             let lines = edges(corners)
@@ -176,8 +179,9 @@ impl<'a> Annotating<'a> {
     /// Returns the place of an end; by default the ghost, or the selection, of the only object that is moved.
     fn end(&self, end: &Option<AnnotatedPlace>, is_to: bool) -> Option<AnnotatedPlace> {
         end.clone().or_else(|| {
-            let moved = self.job.scene.objects.iter().find(|object| object.motion.is_moved())?;
-            let name = moved.name.clone();
+            let scene = &self.job.scene;
+            let moved = (0..scene.objects.len()).find(|&i| scene.leaves_ghost(i))?;
+            let name = scene.objects[moved].name.clone();
             Some(AnnotatedPlace::Part(if is_to { PartName::Selection(name) } else { PartName::Ghost(name) }))
         })
     }
@@ -186,8 +190,13 @@ impl<'a> Annotating<'a> {
     fn corners(&self, place: &AnnotatedPlace) -> Vec<DVec3> {
         match place {
             AnnotatedPlace::Point(point) => vec![*point],
-            AnnotatedPlace::Part(part) => self.job.corners(part).map(Vec::from).unwrap_or_default(),
+            AnnotatedPlace::Part(part) => self.corners_of(part).map(Vec::from).unwrap_or_default(),
         }
+    }
+
+    /// Returns the corners of the box of a part in the frame. See [`Job::corners`].
+    fn corners_of(&self, part: &PartName) -> Option<[DVec3; 8]> {
+        self.job.corners(&self.objects, part)
     }
 
     /// Returns the centre of a place.

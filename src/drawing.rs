@@ -29,8 +29,11 @@ pub struct Drawing<'a> {
     job: &'a Job,
     first: View,
     orbit: Option<Orbit>,
-    /// The shot of the first camera, if other frames have others.
+    /// The shot of the first camera, if other frames only have other cameras.
     shot: Option<Shot>,
+    /// The frame whose scene is prepared; none after a failure. It matters if frames have scenes of their own.
+    prepared: Option<usize>,
+    draws_volume: bool,
     renderer: Option<Box<dyn Frames + 'a>>,
     marks: Option<MarkFrames<'a>>,
     annotations: Option<Annotating<'a>>,
@@ -101,12 +104,13 @@ impl<'a> Drawing<'a> {
     ) -> Result<Self, Failure> {
         let marks = marking.frames(counts);
         let (first, orbit) = (job.view()?, job.scene.orbit);
-        let shot = orbit.filter(|_| renderer.is_some()).map(|_| job.shot()).transpose()?;
+        let draws_volume = renderer.is_some();
+        let shot = orbit.filter(|_| draws_volume && !job.moves_selections()).map(|_| job.shot()).transpose()?;
         let annotations = Annotating::new(job);
         let asks_rays = annotations.is_some() && job.scene.annotations.asks_rays();
         let is_on_card = renderer.as_ref().is_some_and(|renderer| renderer.reference().is_none());
         let sight = (asks_rays && is_on_card).then(|| job.renderer()).transpose()?;
-        Ok(Self { job, first, orbit, shot, renderer, marks, annotations, sight })
+        Ok(Self { job, first, orbit, shot, prepared: Some(0), draws_volume, renderer, marks, annotations, sight })
     }
 
     /// Returns the number of frames: those of `[orbit]`, or one.
@@ -146,6 +150,7 @@ impl<'a> Drawing<'a> {
             Some(orbit) => orbit.view(&self.first, &scene.camera, self.job.volume.grid(), frame),
             None => self.first.clone(),
         };
+        self.prepare(frame, &view, &mut counts)?;
         // Marks of the frame. Lines inside the volume become fragments on its rays; the others stay over the picture.
         let (mut marks, mut inside) = (None, 0);
         match (&mut self.marks, &mut self.renderer) {
@@ -195,6 +200,32 @@ impl<'a> Drawing<'a> {
             counts.seconds.insert("annotations".into(), start.elapsed().as_secs_f64());
         }
         Ok(Some((Frame { number: frame, picture, marks, inside, notes }, counts)))
+    }
+
+    /// Prepares the scene of a frame, if frames have scenes of their own.
+    fn prepare(&mut self, frame: usize, view: &View, counts: &mut Counts) -> Result<(), Failure> {
+        if !self.job.moves_selections() || self.prepared == Some(frame) {
+            return Ok(());
+        }
+        self.prepared = None;
+        let variant = self.job.seen_from(view.clone())?;
+        let is_changed = match &mut self.renderer {
+            Some(renderer) => renderer.change_to(self.job, &variant)?,
+            None => !self.draws_volume,
+        };
+        if !is_changed {
+            // Memory has room for one renderer.
+            self.renderer = None;
+            self.renderer = Some(frames(self.job, Some(&variant), None, counts)?);
+        }
+        if let Some(sight) = &mut self.sight {
+            *sight = self.job.renderer_of(&variant)?;
+        }
+        if let Some(annotations) = &mut self.annotations {
+            annotations.objects = variant.scene.objects;
+        }
+        self.prepared = Some(frame);
+        Ok(())
     }
 }
 

@@ -19,7 +19,7 @@
 //! ```
 
 use crate::Failure;
-use crate::job::render_failure;
+use crate::job::{Job, SceneVariant, render_failure};
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
@@ -54,6 +54,15 @@ pub trait Frames {
     /// The camera is too far away. On a graphics card, whose shader is compiled for them, the size or the rays differ. On the
     /// reference, the size differs before a picture.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
+
+    /// Takes a variant of the job's scene, if that saves work, and removes lines inside the picture. Returns whether it did;
+    /// otherwise the frames have to be prepared anew.
+    ///
+    /// # Errors
+    /// The errors of preparing the frames.
+    fn change_to(&mut self, _job: &Job, _variant: &SceneVariant) -> Result<bool, Failure> {
+        Ok(false)
+    }
 
     /// Draws a frame, with its own counts. `progress` receives the share that is done, on any thread; the frame pauses
     /// until it returns. Once `stop` is true, the frame soon ends without a picture, unless it is already complete.

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::frames::Frames;
-use crate::job::{Job, KnobVariant, render_failure, room_for_picture};
+use crate::job::{Job, SceneVariant, render_failure, room_for_picture};
 use crate::stippling::PointTest;
 use drypoint_gpu::{CardInputs, CardRenderer};
 pub use drypoint_gpu::{Gpu, GpuError, Interpolation, Precision, ShaderKernel, wgpu};
@@ -65,7 +65,8 @@ impl Uploaded {
         }
         let measured = measured.into_iter().map(Measured::without_numbers).collect();
         let has_lines = plan.has_pass(Pass::MergedStrokes);
-        Ok(Self { shot, measured, volumes, places, of: job.volumes().cloned().collect(), has_lines })
+        let of = job.volumes(&shot).cloned().collect();
+        Ok(Self { shot, measured, volumes, places, of, has_lines })
     }
 
     /// The data of a job with their facts.
@@ -73,9 +74,9 @@ impl Uploaded {
         CardInputs { data, measured: &self.measured, places: &self.places, has_lines: self.has_lines }
     }
 
-    /// Whether the volumes are those of a job.
-    fn are_of(&self, job: &Job) -> bool {
-        self.of.iter().map(Arc::as_ptr).eq(job.volumes().map(Arc::as_ptr))
+    /// Whether the volumes are those of a job's shot.
+    fn are_of(&self, job: &Job, shot: &Shot) -> bool {
+        self.of.iter().map(Arc::as_ptr).eq(job.volumes(shot).map(Arc::as_ptr))
     }
 }
 
@@ -92,7 +93,7 @@ impl<'a> GpuJob<'a> {
     ///
     /// # Errors
     /// The errors of [`GpuJob::new`].
-    pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &KnobVariant, precision: Precision) -> Result<Self, Failure> {
+    pub fn of(job: &'a Job, gpu: &'a Gpu, variant: &SceneVariant, precision: Precision) -> Result<Self, Failure> {
         Self::upload((job, gpu), job.shot_of(variant)?, (&variant.scene, &variant.plan), precision)
     }
 
@@ -164,7 +165,7 @@ impl GpuFrames {
     ///
     /// # Errors
     /// The errors of [`GpuFrames::new`].
-    pub fn of(job: &Job, gpu: &Gpu, variant: &KnobVariant) -> Result<Self, Failure> {
+    pub fn of(job: &Job, gpu: &Gpu, variant: &SceneVariant) -> Result<Self, Failure> {
         Self::of_job(GpuJob::of(job, gpu, variant, Precision::Single)?)
     }
 
@@ -183,25 +184,29 @@ impl GpuFrames {
     /// # Errors
     /// The errors of [`GpuFrames::new`]. The frames then keep their previous scene.
     pub fn change(&mut self, job: &Job) -> Result<(), Failure> {
-        let (shot, has_lines) = (job.shot()?, job.plan.has_pass(Pass::MergedStrokes));
-        has_room(job, &job.scene, &job.plan)?;
-        if self.uploaded.are_of(job) && shot.keeps_facts_of(&self.uploaded.shot) {
-            within_planes(&shot, job.volume.grid()).map_err(|error| render_failure(&error, &job.scene))?;
+        self.take(job, job.shot()?, (&job.scene, &job.plan))
+    }
+
+    fn take(&mut self, job: &Job, shot: Shot, (scene, plan): (&Scene, &Plan)) -> Result<(), Failure> {
+        let has_lines = plan.has_pass(Pass::MergedStrokes);
+        has_room(job, scene, plan)?;
+        if self.uploaded.are_of(job, &shot) && shot.keeps_facts_of(&self.uploaded.shot) {
+            within_planes(&shot, job.volume.grid()).map_err(|error| render_failure(&error, scene))?;
             let data = job.inputs(&shot);
             let inputs = CardInputs { has_lines, ..self.uploaded.inputs(&data) };
             let changed = self.renderer.change(&self.uploaded.volumes, &shot, &inputs);
-            changed.map_err(|error| failure(&error, &job.scene.given))?;
+            changed.map_err(|error| failure(&error, &scene.given))?;
             (self.uploaded.shot, self.uploaded.has_lines) = (shot, has_lines);
         } else {
-            let renewed = Uploaded::new((job, &self.gpu), shot, (&job.scene, &job.plan), Precision::Single)?;
+            let renewed = Uploaded::new((job, &self.gpu), shot, (scene, plan), Precision::Single)?;
             let data = job.inputs(&renewed.shot);
             let changed = self.renderer.change(&renewed.volumes, &renewed.shot, &renewed.inputs(&data));
-            changed.map_err(|error| failure(&error, &job.scene.given))?;
+            changed.map_err(|error| failure(&error, &scene.given))?;
             self.uploaded = renewed;
         }
         let size = self.uploaded.shot.view.size.map(|n| n as u32);
         self.shown = self.shown.take().filter(|texture| [texture.width(), texture.height()] == size);
-        (self.grid, self.given) = (job.volume.grid().clone(), job.scene.given.clone());
+        (self.grid, self.given) = (job.volume.grid().clone(), scene.given.clone());
         Ok(())
     }
 
@@ -242,6 +247,10 @@ impl Frames for GpuFrames {
             return Err(Failure::new(what, "--backend", "prepare frames of a scene of that size"));
         }
         self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))
+    }
+
+    fn change_to(&mut self, job: &Job, variant: &SceneVariant) -> Result<bool, Failure> {
+        self.take(job, job.shot_of(variant)?, (&variant.scene, &variant.plan)).map(|()| true)
     }
 
     fn frame_until(

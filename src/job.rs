@@ -29,6 +29,7 @@ mod assets;
 mod bare_scene;
 mod failures;
 mod focus;
+mod interaction;
 mod iso;
 mod load;
 mod objects;
@@ -56,7 +57,9 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
-use drypoint_scene::tables::{Background, Ids, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeTable};
+use drypoint_scene::tables::{
+    Background, Ids, ObjectTable, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeTable,
+};
 use drypoint_scene::transfer::Function;
 use drypoint_scene::view::{View, ViewError};
 use drypoint_scene::volume::Volume;
@@ -104,13 +107,15 @@ pub struct Job {
     pub(crate) label_names: LabelNames,
 }
 
-/// A job's scene with other settings of knobs, and its plan.
-pub struct KnobVariant {
+/// A job's scene with other settings of knobs, or as a frame of `[orbit]` sees it, and its plan.
+pub struct SceneVariant {
     /// The scene.
     pub scene: Scene,
     /// The plan.
     pub plan: Plan,
     function: Option<Arc<Function>>,
+    /// The camera; none: the job's.
+    view: Option<View>,
 }
 
 impl Job {
@@ -275,15 +280,16 @@ impl Job {
     }
 
     /// Returns the corners of the box of a part in world space, x fastest: of the volume, of an object's selection where
-    /// it is moved, or of its ghost. Returns none for objects if the volume is not drawn.
-    pub(crate) fn corners(&self, part: &PartName) -> Option<[DVec3; 8]> {
+    /// it is moved, or of its ghost. `objects` are those of the scene, or of a variant of it. Returns none for objects if
+    /// the volume is not drawn.
+    pub(crate) fn corners(&self, objects: &[ObjectTable], part: &PartName) -> Option<[DVec3; 8]> {
         let (name, role) = match part {
             PartName::Background => return Some(self.volume.grid().world_corners()),
             PartName::Selection(name) => (name, Role::Selection),
             PartName::Ghost(name) => (name, Role::Ghost),
         };
-        let object = self.scene.objects.iter().position(|object| object.name == *name)?;
-        self.objects.corners(&self.scene.objects[object], object, role)
+        let object = objects.iter().position(|object| object.name == *name)?;
+        self.objects.corners(&objects[object], object, role)
     }
 
     /// Returns the label volume of `[volume]`, if something reads it.
@@ -331,20 +337,21 @@ impl Job {
     }
 
     /// Returns another scene over the loaded data. The scene differs from the job's in its knobs alone ([COST-1]).
-    pub fn variant(&self, scene: Scene) -> KnobVariant {
+    pub fn variant(&self, scene: Scene) -> SceneVariant {
         let plan = self.plan_of(&scene);
         let range = scene.volume.range.unwrap_or_else(|| self.volume.range());
         // No knob changes a function of two quantities, labels among them.
         let over_value = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none());
         let function = over_value.and_then(|t| Function::new(t, range, &self.volume, &|_| None).ok().flatten());
-        KnobVariant { function: function.map(Arc::new).or_else(|| self.assets.function.clone()), scene, plan }
+        let function = function.map(Arc::new).or_else(|| self.assets.function.clone());
+        SceneVariant { scene, plan, function, view: None }
     }
 
-    /// Returns a renderer of a scene with other knobs.
+    /// Returns a renderer of a variant of the scene.
     ///
     /// # Errors
     /// Same errors as [`Job::renderer`].
-    pub fn renderer_of<'a>(&'a self, variant: &'a KnobVariant) -> Result<Renderer<'a>, Failure> {
+    pub fn renderer_of(&self, variant: &SceneVariant) -> Result<Renderer<'_>, Failure> {
         self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, Renderer::new)
     }
 
@@ -354,16 +361,17 @@ impl Job {
     /// Same errors as [`Job::renderer`].
     pub fn exact_renderer_of<'a>(
         &'a self,
-        variant: &'a KnobVariant,
+        variant: &SceneVariant,
         phantom: &'a dyn Phantom,
     ) -> Result<Renderer<'a>, Failure> {
         let make = |shot: &Shot, inputs| Renderer::exact(shot, inputs, phantom);
         self.made_ready(&variant.scene, &variant.plan, &self.shot_of(variant)?, make)
     }
 
-    /// Returns the shot of a scene with other knobs. No knob is the camera's.
-    pub(crate) fn shot_of(&self, variant: &KnobVariant) -> Result<Shot, Failure> {
-        self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), self.view()?)
+    /// Returns the shot of a variant of the scene.
+    pub(crate) fn shot_of(&self, variant: &SceneVariant) -> Result<Shot, Failure> {
+        let view = variant.view.clone().map_or_else(|| self.view(), Ok)?;
+        self.resolve(&variant.scene, &variant.plan, variant.function.as_ref(), view)
     }
 
     /// Returns the plan of a scene over the loaded data.
@@ -393,7 +401,7 @@ impl Job {
 
     fn made_ready<'a>(
         &'a self,
-        scene: &'a Scene,
+        scene: &Scene,
         plan: &Plan,
         shot: &Shot,
         make: impl FnOnce(&Shot, Inputs<'a>) -> Result<Renderer<'a>, RenderError>,
@@ -421,8 +429,8 @@ impl Job {
 
     /// Returns the volumes of [`Shot::objects`], in their order.
     #[cfg(feature = "gpu")]
-    pub(crate) fn volumes(&self) -> impl Iterator<Item = &Arc<Volume>> {
-        std::iter::once(&self.volume).chain(self.objects.volumes())
+    pub(crate) fn volumes(&self, shot: &Shot) -> impl Iterator<Item = &Arc<Volume>> {
+        std::iter::once(&self.volume).chain(self.objects.volumes(shot))
     }
 
     /// Returns the background of the volume.

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::gpu::{Gpu, GpuJob, Precision};
-use crate::job::{Job, KnobVariant, render_failure};
+use crate::job::{Job, SceneVariant, render_failure};
 use crate::marking::Marking;
 use drypoint_output::compare::{CompareOptions, compare};
 use drypoint_output::paint::fragments;
@@ -253,7 +253,7 @@ pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) ->
 
 /// The stages of a scene, with their layers. First come stages of the first visible sample of a ray, which do not
 /// depend on opacities. Then come depths, which opacities move, then quantities weighted by opacities.
-fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKind)>, Failure> {
+fn stages(job: &Job, variant: &SceneVariant) -> Result<Vec<(&'static str, LayerKind)>, Failure> {
     let query = job.shot_of(variant)?.objects[0].query;
     let has_kappa = query.kappa != KappaSource::None;
     let stages = [
@@ -272,7 +272,7 @@ fn stages(job: &Job, variant: &KnobVariant) -> Result<Vec<(&'static str, LayerKi
 fn drawn(
     job: &Job,
     gpu: &Gpu,
-    variant: &KnobVariant,
+    variant: &SceneVariant,
     precision: Precision,
     lines: Option<Fragments>,
     edit: &dyn Fn(String) -> String,
@@ -296,7 +296,7 @@ fn lines_inside(job: &Job, renderer: &Renderer<'_>) -> Result<Option<Fragments>,
 }
 
 /// The reference's picture with its bounds, or the reason why there are none.
-fn bounds(job: &Job, variant: &KnobVariant) -> Result<Result<Bounds, String>, Failure> {
+fn bounds(job: &Job, variant: &SceneVariant) -> Result<Result<Bounds, String>, Failure> {
     let shot = job.shot_of(variant)?;
     match Renderer::bounds(&shot, job.inputs(&shot), RayOrigin::Middle) {
         Ok(bounds) => Ok(Ok(bounds)),

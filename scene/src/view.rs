@@ -3,8 +3,6 @@
 mod interaction;
 mod orbit;
 
-pub use interaction::InteractionState;
-
 use crate::math;
 use crate::space::Grid;
 use crate::tables::{Camera, LightDirection, Projection};

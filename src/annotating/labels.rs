@@ -22,18 +22,21 @@ const LOOKS: usize = 160;
 /// The labels of a job's frames, and the places that they lead to.
 pub(super) struct LabelAnchors {
     labels: Vec<Anchored>,
-    /// Corners of the boxes that the labels surround, in world space.
-    around: Vec<DVec3>,
+    /// The box of what is visible of the volume, in index space.
+    visible: [DVec3; 2],
 }
 
 /// A label and the place that it leads to, in world space.
 struct Anchored {
     text: String,
     world: DVec3,
+    /// The part at whose centre the place is; none: the place stays in the world.
+    part: Option<PartName>,
 }
 
 impl Annotating<'_> {
     /// The labels of a frame, beside what stands in the margin. Places are found in the first frame and stay in the world.
+    /// Labels of objects stay at their centres.
     pub(super) fn labels(
         &mut self,
         view: &View,
@@ -46,8 +49,11 @@ impl Annotating<'_> {
         }
         if self.anchors.is_none() {
             let labels = self.anchored(view, renderer, notes)?;
-            self.anchors = Some(LabelAnchors { labels, around: self.around(renderer) });
+            let visible = renderer.and_then(Renderer::visible_box);
+            let visible = visible.unwrap_or_else(|| self.job.volume.grid().index_box());
+            self.anchors = Some(LabelAnchors { labels, visible });
         }
+        self.follow_parts();
         let table = self.tables().arrangement.clone().unwrap_or_default();
         let pen = self.pen(&table.line, "labels", "labels.pen")?;
         let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
@@ -80,6 +86,15 @@ impl Annotating<'_> {
         Ok(vec![layer])
     }
 
+    /// Moves the places of labels of objects to their centres in the frame.
+    fn follow_parts(&mut self) {
+        let Self { job, objects, anchors, .. } = self;
+        for label in anchors.iter_mut().flat_map(|anchors| &mut anchors.labels) {
+            let corners = label.part.as_ref().and_then(|part| job.corners(objects, part));
+            label.world = corners.map_or(label.world, centre);
+        }
+    }
+
     /// The page of a frame with its labels to be placed.
     fn annotated_page(
         &self,
@@ -101,7 +116,7 @@ impl Annotating<'_> {
         });
         AnnotatedPage {
             annotations: annotations.collect(),
-            outline: widened(&self.on_page(view, &anchors.around), self.mm(table.distance)),
+            outline: widened(&self.on_page(view, &self.around(anchors.visible)), self.mm(table.distance)),
             frame: self.page.frame(),
             obstacles,
             rounds: table.rounds,
@@ -109,14 +124,13 @@ impl Annotating<'_> {
         }
     }
 
-    /// The corners of what labels surround: of the visible part of the volume, of selections, and of boxes that are drawn.
-    fn around(&self, renderer: Option<&Renderer<'_>>) -> Vec<DVec3> {
-        let grid = self.job.volume.grid();
-        let visible = renderer.and_then(Renderer::visible_box).unwrap_or_else(|| grid.index_box());
-        let selections = self.job.scene.objects.iter();
-        let selections = selections.filter_map(|object| self.job.corners(&PartName::Selection(object.name.clone())));
+    /// The corners of what labels surround: of the visible box of the volume, of selections, and of boxes that are drawn.
+    fn around(&self, visible: [DVec3; 2]) -> Vec<DVec3> {
+        let selections = self.objects.iter();
+        let selections = selections.filter_map(|object| self.corners_of(&PartName::Selection(object.name.clone())));
         let boxes = self.tables().boxes.iter().filter(|table| table.show == BoxShown::Always);
-        let boxes = boxes.filter_map(|table| self.job.corners(&table.of));
+        let boxes = boxes.filter_map(|table| self.corners_of(&table.of));
+        let grid = self.job.volume.grid();
         grid.corners_of(visible).into_iter().chain(selections.flatten()).chain(boxes.flatten()).collect()
     }
 
@@ -138,7 +152,7 @@ impl Annotating<'_> {
         for (i, label) in tables.iter().enumerate() {
             if label.from.is_some() {
                 let most = seen.largest.iter().take(label.most);
-                found.extend(most.map(|(id, world)| Anchored { text: name(*id), world: *world }));
+                found.extend(most.map(|(id, world)| Anchored { text: name(*id), world: *world, part: None }));
                 continue;
             }
             let (text, world) = match label {
@@ -147,10 +161,7 @@ impl Annotating<'_> {
                     let picked = renderer.and_then(|renderer| renderer.pick(point_of_pixel(*pixel)));
                     (None, picked.map(|picked| picked.world))
                 }
-                LabelTable { object: Some(part), .. } => {
-                    let corners = self.job.corners(part);
-                    (Some(part.to_string()), corners.map(|corners| corners.iter().sum::<DVec3>() / 8.0))
-                }
+                LabelTable { object: Some(part), .. } => (Some(part.to_string()), self.corners_of(part).map(centre)),
                 _ => {
                     let id = self.id(label, i)?;
                     let world = match label.anchor {
@@ -164,7 +175,7 @@ impl Annotating<'_> {
             };
             let text = label.text.clone().or(text).unwrap_or_default();
             match world {
-                Some(world) => found.push(Anchored { text, world }),
+                Some(world) => found.push(Anchored { text, world, part: label.object.clone() }),
                 None => notes.push(format!("the label {text:?} is left out: nothing is seen of what it names")),
             }
         }
@@ -216,6 +227,11 @@ fn widened(points: &[DVec2], distance: f64) -> Vec<DVec2> {
         .iter()
         .flat_map(|&point| octagon.into_iter().flat_map(move |corner| [point + corner, point - corner]))
         .collect()
+}
+
+/// The centre of a box.
+fn centre(corners: [DVec3; 8]) -> DVec3 {
+    corners.iter().sum::<DVec3>() / 8.0
 }
 
 /// The structures of a label volume that are seen, the largest first, with a point on each.

@@ -53,7 +53,7 @@ pub use sweep_format::SweepFormat;
 pub use table::{csv, markdown};
 
 use crate::gpu::Gpu;
-use crate::job::{Job, KnobVariant};
+use crate::job::{Job, SceneVariant};
 use crate::{Failure, Failures};
 use drypoint_output::read::Image;
 use drypoint_scene::knobs::{Knob, Limit, knobs};
@@ -288,7 +288,7 @@ fn chosen<'k>(all: &'k [Knob], only: &[String], job: &Job) -> Result<Vec<&'k Kno
 }
 
 /// A scene that is drawn for its output, and the graphics card that draws it; none: the reference.
-type DistinctScene<'c> = (ErrorSubject, KnobVariant, Option<&'c Gpu>);
+type DistinctScene<'c> = (ErrorSubject, SceneVariant, Option<&'c Gpu>);
 
 /// A knob, its setting, and the index of the scene to which it leads.
 type KnobSetting<'k> = (&'k Knob, String, usize);

@@ -8,7 +8,7 @@ use crate::Failure;
 use crate::backend::frames;
 use crate::frames::Frames;
 use crate::gpu::Gpu;
-use crate::job::{Job, KnobVariant};
+use crate::job::{Job, SceneVariant};
 use crate::stippling::Stippling;
 use crate::stroking::Stroking;
 use drypoint_output::read::Image;
@@ -33,7 +33,7 @@ const STROKES: usize = 2000;
 pub(super) struct TimedVariant<'a> {
     job: &'a Job,
     pub(super) subject: ErrorSubject,
-    pub(super) knobs: &'a KnobVariant,
+    pub(super) knobs: &'a SceneVariant,
     /// The graphics card that draws the volume; none stands for the reference.
     pub(super) card: Option<&'a Gpu>,
     /// Renderer for the next turn, if it may be kept.
@@ -56,7 +56,7 @@ pub(super) enum SettingOutput {
 }
 
 impl<'a> TimedVariant<'a> {
-    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a KnobVariant, card: Option<&'a Gpu>) -> Self {
+    pub(super) fn new(job: &'a Job, subject: ErrorSubject, knobs: &'a SceneVariant, card: Option<&'a Gpu>) -> Self {
         Self { job, subject, knobs, card, renderer: None, keeps: false, made: None, seconds: Vec::new() }
     }
 

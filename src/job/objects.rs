@@ -15,15 +15,16 @@ use drypoint_scene::plan::{NodesPlan, Plan};
 use drypoint_scene::shot::{PartFacts, SelectionFacts, Shot, VolumeFacts};
 use drypoint_scene::source::Source;
 use drypoint_scene::space::Grid;
-use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, ObjectTable, Role, Scene, Transfer};
+use drypoint_scene::tables::{Halo, IntersectionColor, LabelKey, Motion, ObjectTable, Role, Scene, Transfer};
 use drypoint_scene::transfer::Function;
+use drypoint_scene::view::View;
 use drypoint_scene::volume::{Anatomy, Selection, Volume, read, selected_by_value};
 use std::sync::Arc;
 
 /// The objects of a job.
 #[derive(Default)]
 pub(crate) struct Objects {
-    /// Selections and ghosts, in the order of [`Scene::parts`].
+    /// Selections and ghosts, in the order of [`Scene::parts_of_frames`].
     parts: Vec<ObjectPart>,
     /// The selection volume of each object that has one.
     selections: Vec<Option<Selection>>,
@@ -95,7 +96,7 @@ impl Objects {
         Failures::check(std::mem::take(&mut failures))?;
         room_for_parts(scene)?;
         let mut parts = Vec::new();
-        for (object, role) in scene.parts() {
+        for (object, role) in scene.parts_of_frames() {
             let table = &scene.objects[object];
             let mut tables = match table.volume {
                 None => scene.of_part(object, role),
@@ -118,10 +119,29 @@ impl Objects {
         Ok(Self { parts, selections, facts, pictures })
     }
 
-    /// The volumes of the parts.
+    /// Returns the parts that are drawn if `is_moved` tells which objects are moved: only these have ghosts.
+    fn drawn(&self, is_moved: impl Fn(usize) -> bool) -> impl Iterator<Item = &ObjectPart> {
+        self.parts.iter().filter(move |part| part.role == Role::Selection || is_moved(part.object))
+    }
+
+    /// Returns the parts of a shot.
+    fn of_shot<'a>(&'a self, shot: &Shot) -> impl Iterator<Item = &'a ObjectPart> {
+        let combination = shot.combination.iter();
+        combination.flat_map(|all| self.drawn(|object| all.selections[object].motion.is_some()))
+    }
+
+    /// The volumes of a shot's parts.
     #[cfg(feature = "gpu")]
-    pub(super) fn volumes(&self) -> impl Iterator<Item = &Arc<Volume>> {
-        self.parts.iter().map(|part| &part.volume)
+    pub(super) fn volumes<'a>(&'a self, shot: &Shot) -> impl Iterator<Item = &'a Arc<Volume>> {
+        self.of_shot(shot).map(|part| &part.volume)
+    }
+
+    /// Moves a selection by M' of another camera ([VS-9]).
+    pub(super) fn follow(&self, object: usize, table: &mut ObjectTable, cameras: [&View; 2]) {
+        if let Some(facts) = self.facts.get(object) {
+            let centre = facts.centre();
+            table.motion = Motion::of(table.interaction.motion(table.motion.map(centre), centre, cameras));
+        }
     }
 
     /// Returns the corners of the box of an object in world space, x fastest: of its ghost, or of its selection where it
@@ -163,7 +183,7 @@ impl Objects {
         found
     }
 
-    /// Adds the objects to the shot of a scene that differs from the job's only in its knobs.
+    /// Adds the objects to the shot of a scene that differs from the job's only in its knobs and in M.
     pub(super) fn add_to(
         &self,
         shot: Shot,
@@ -174,8 +194,9 @@ impl Objects {
         if scene.objects.is_empty() || self.parts.is_empty() {
             return Ok(shot);
         }
-        let scenes: Vec<(Scene, Plan)> = self.parts.iter().map(|part| part.scene_of(scene)).collect();
-        let facts = self.parts.iter().zip(&scenes).map(|(part, (scene, plan))| PartFacts {
+        let parts = || self.drawn(|object| scene.objects[object].motion.is_moved());
+        let scenes: Vec<(Scene, Plan)> = parts().map(|part| part.scene_of(scene)).collect();
+        let facts = parts().zip(&scenes).map(|(part, (scene, plan))| PartFacts {
             scene,
             plan,
             function: part.assets.function.clone().unwrap_or_else(|| Arc::new(Function::nothing())),
@@ -191,7 +212,7 @@ impl Objects {
     pub(super) fn inputs<'a>(&'a self, shot: &Shot, inputs: Inputs<'a>) -> Inputs<'a> {
         let Some(combination) = shot.combination.as_ref() else { return inputs };
         Inputs {
-            parts: self.parts.iter().map(|part| part.assets.of(&part.volume)).collect(),
+            parts: self.of_shot(shot).map(|part| part.assets.of(&part.volume)).collect(),
             selections: self.selections.iter().map(Option::as_ref).collect(),
             pictures: combination.intersections.iter().map(|table| self.pictures[table.table].as_ref()).collect(),
             ..inputs

@@ -15,11 +15,11 @@ impl Job {
 
     /// Returns the provenance of a frame. That of frame 0 equals the scene's without `[orbit]`, byte for byte.
     pub fn provenance_of(&self, frame: usize) -> Provenance {
-        let plan = self.plan_of(&self.scene);
         if frame == 0 {
-            return provenance(&Scene { orbit: None, ..self.scene.clone() }, &plan);
+            let still = Scene { orbit: None, ..self.scene.clone() };
+            return provenance(&still, &self.plan_of(&still));
         }
-        let mut provenance = provenance(&self.scene, &plan);
+        let mut provenance = provenance(&self.scene, &self.plan_of(&self.scene));
         provenance.plan.push_str(&format!("orbit: frame {frame}\n"));
         provenance
     }

@@ -37,7 +37,7 @@ pub(super) fn room_for_parts(scene: &Scene) -> Result<(), Failure> {
         let of_ghost = table.ghost.as_ref().filter(|_| role == Role::Ghost).and_then(|ghost| ghost.transfer.as_ref());
         PART + NODE * nodes(of_ghost.or(table.transfer.as_ref()).or(scene.transfer.as_ref()))
     };
-    memory::room(scene.parts().map(of_part).sum()).map_err(|no_room| {
+    memory::room(scene.parts_of_frames().map(of_part).sum()).map_err(|no_room| {
         let what = format!("the functions of {} objects need {no_room}", scene.objects.len());
         Failure::new(what, scene.given.position("object"), "write fewer objects, or fewer nodes of [transfer]")
     })

@@ -4,6 +4,11 @@
 use crate::double::{difference_in_double, follows_the_camera, load};
 use crate::gpu;
 use crate::meshes::Meshes;
+use drypoint::drawing::Drawing;
+use drypoint::gpu::{GpuJob, Precision};
+use drypoint::job::SceneVariant;
+use drypoint::marking::Marking;
+use drypoint::scene::counts::Counts;
 use std::path::{Path, PathBuf};
 
 /// A scene of shells under Blinn–Phong.
@@ -125,6 +130,37 @@ fn selections_and_ghosts() {
         ("three by products", shells(&(PRODUCT.to_owned() + &files.soft("") + &by_value("") + &files.own("")))),
         ("rays at edges, out of sight", shells(&files.soft("move = [900, 0, 0]")).replace("samples = 1\n", "")),
     ]);
+}
+
+/// In a frame of `[orbit]` the selections are moved by M'. Frames that take the scene of each frame are those of new ones,
+/// also where a ghost appears.
+#[test]
+fn selections_before_the_eye_or_pinned() {
+    let Some(gpu) = gpu() else { return };
+    let files = Files::new();
+    for (state, motion) in [("decoupled", MOVED), ("decoupled", ""), ("pinned", MOVED)] {
+        let orbit = "[orbit]\nframes = 3\ndegrees = 100\n";
+        let job = load(&shells(&(files.soft(&format!("{motion}\ninteraction = \"{state}\"")) + orbit)));
+        let views = (0..3)
+            .map(|i| job.scene.orbit.unwrap().view(&job.view().unwrap(), &job.scene.camera, job.volume.grid(), i));
+        let variants: Vec<SceneVariant> = views.map(|view| job.seen_from(view).unwrap()).collect();
+        let drawn = |variant, precision| {
+            let on_gpu = GpuJob::of(&job, &gpu, variant, precision).unwrap_or_else(|failure| panic!("{failure}"));
+            on_gpu.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}"))
+        };
+        let (truth, _) = job.renderer_of(&variants[1]).unwrap().frame(&|_| ());
+        let pairs = [truth, drawn(&variants[1], Precision::Double)].map(|picture| picture.layers[0].channels.concat());
+        let largest = pairs[0].iter().zip(&pairs[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(largest < 1e-9, "{state}, {motion}: {largest:e}");
+        let mut counts = Counts::default();
+        let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
+        let mut drawing = Drawing::on(&job, &marking, Some(&gpu), &mut counts).unwrap();
+        for i in [0, 1, 2, 0] {
+            let (frame, _) = drawing.frame(i, &|_| ()).unwrap_or_else(|failure| panic!("{failure}"));
+            let fresh = drawn(&variants[i], Precision::Single);
+            assert!(frame.picture.unwrap().layers == fresh.layers, "frame {i}: {state}, {motion}");
+        }
+    }
 }
 
 #[test]

@@ -63,8 +63,8 @@ pub use intersection::{IntersectionColor, IntersectionOpacity, IntersectionTable
 pub use mesh::MeshTable;
 pub use nodes::{Row, RowAt, Stand};
 pub use object::{
-    Brush, Connectivity, Cut, GhostTable, Motion, ObjectTable, PaintMode, PaintStroke, PaintTarget, PartName, Role,
-    Rotation,
+    Brush, Connectivity, Cut, GhostTable, InteractionState, Motion, ObjectTable, PaintMode, PaintStroke, PaintTarget,
+    PartName, Role, Rotation,
 };
 pub use orbit::Orbit;
 pub use outlines::{Crease, Outlines};

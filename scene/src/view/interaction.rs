@@ -1,19 +1,8 @@
 //! The states of a selection while the camera moves (VolumeShop 6.3; [VS-9]).
 
 use super::View;
+use crate::tables::InteractionState;
 use glam::{DAffine3, DMat3, DVec3};
-
-/// The part of a change of camera that a selection takes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum InteractionState {
-    /// The selection belongs to the scene: M' = M.
-    Integrated,
-    /// The selection keeps its placement before the eye: M' = V'⁻¹·V·M.
-    Decoupled,
-    /// The centre of the selection keeps its pixel and its eye depth, and the selection turns with the scene: M' = M followed
-    /// by a translation.
-    Pinned,
-}
 
 impl InteractionState {
     /// Returns M' for a camera V' in place of V. `motion` is M, and `centre` is the selection's centre before it is moved, in

@@ -10,6 +10,7 @@ mod identity;
 mod meetings;
 mod motions;
 mod painting;
+mod states;
 
 use drypoint::job::Job;
 use drypoint::scene::counts::Counts;

@@ -16,7 +16,7 @@ fn ends(scene: &Scene, check: &mut Check) {
     if !check.sound(&["object", "arrow", "fan"]) {
         return;
     }
-    let moved = scene.objects.iter().filter(|object| object.motion.is_moved()).count();
+    let moved = (0..scene.objects.len()).filter(|&i| scene.leaves_ghost(i)).count();
     let annotations = &scene.annotations;
     let arrows =
         annotations.arrows.iter().enumerate().map(|(i, arrow)| (format!("arrow[{i}]"), &arrow.from, &arrow.to));

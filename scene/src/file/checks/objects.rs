@@ -4,7 +4,7 @@ use super::no_label_names;
 use crate::document::Problem;
 use crate::document::check::Check;
 use crate::picture::LayerKind;
-use crate::tables::{LabelKey, ObjectTable, PartName, Scene};
+use crate::tables::{LabelKey, ObjectTable, PartName, Role, Scene};
 use std::collections::BTreeSet;
 
 /// Reports every contradiction of objects, and every name of a part that nothing has.
@@ -82,7 +82,7 @@ fn references(scene: &Scene, check: &mut Check) {
     });
     let of_halos = scene.halos.iter().enumerate();
     let of_halos = of_halos.filter_map(|(i, halo)| Some((format!("halo[{i}].object"), halo.object.as_ref()?)));
-    let known = known_parts(&scene.objects);
+    let known = known_parts(scene);
     let there: BTreeSet<&PartName> = known.iter().collect();
     let of_annotations = scene.annotations.parts();
     let of_annotations = of_annotations.iter().map(|(key, part)| (key.clone(), *part));
@@ -103,10 +103,13 @@ fn references(scene: &Scene, check: &mut Check) {
 }
 
 /// All parts of a scene.
-fn known_parts(objects: &[ObjectTable]) -> Vec<PartName> {
-    let of_object = objects.iter().flat_map(|object| {
-        let ghost = object.motion.is_moved().then(|| PartName::Ghost(object.name.clone()));
-        [PartName::Selection(object.name.clone())].into_iter().chain(ghost)
+fn known_parts(scene: &Scene) -> Vec<PartName> {
+    let of_object = scene.parts_of_frames().map(|(i, role)| {
+        let name = scene.objects[i].name.clone();
+        match role {
+            Role::Selection => PartName::Selection(name),
+            Role::Ghost => PartName::Ghost(name),
+        }
     });
     [PartName::Background].into_iter().chain(of_object).collect()
 }
@@ -137,14 +140,25 @@ fn intersections(scene: &Scene, check: &mut Check) {
     }
 }
 
-/// A layer of a part needs that part.
+/// A layer of a part needs that part, in all frames.
 fn layers(scene: &Scene, check: &mut Check) {
     if !check.sound(&["picture.layers"]) {
         return;
     }
-    let known = known_parts(&scene.objects);
+    let known = known_parts(scene);
+    let is_still = |&(i, object): &(usize, &ObjectTable)| !object.motion.is_moved() && scene.follows_camera(i);
+    let still = scene.objects.iter().enumerate().find(is_still);
     for (i, layer) in scene.picture.layers.iter().enumerate() {
         let LayerKind::Part(n) = *layer else { continue };
+        if let Some((_, object)) = still {
+            let what = format!(
+                "{layer} is not one part in all frames: {:?} leaves its ghost when [orbit] turns the camera",
+                object.name
+            );
+            let remedy = "move it, or write rotate = { angle = 360 }: then it has a ghost in each frame".into();
+            check.fault_in(&format!("picture.layers[{i}]"), Problem::Contradiction { what, remedy });
+            continue;
+        }
         if n >= known.len() {
             let parts = if known.len() == 1 { "part" } else { "parts" };
             let what = format!("there is no {layer}: the scene has {} {parts}, counted from 0", known.len());

@@ -247,6 +247,7 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("object[0].rotate.angle", &[TURNED], "45"),
     ("object[0].center", &[OBJECT], "[1, 2, 3]"),
     ("object[0].matrix", &[OBJECT], "[[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"),
+    ("object[0].interaction", &[OBJECT], "pinned"),
     ("object[0].ghosting", &[OBJECT], "0.8"),
     ("object[0].ghosting_of_ghost", &[OBJECT], "0.8"),
     ("object[0].cut", &[OBJECT], "object"),

@@ -22,7 +22,7 @@ pub(super) const RULES: Rules = Rules {
         let own = PartName::Selection(object.name.clone());
         let ghost = PartName::Ghost(object.name.clone());
         let mut seeds = halos_in_effect(scene).filter(|(_, halo)| halo.takes(&own) || halo.takes(&ghost));
-        idle_keys(object, seeds.any(|(_, halo)| halo.seed.labels.is_some()), idle);
+        idle_keys(scene, object, seeds.any(|(_, halo)| halo.seed.labels.is_some()), idle);
     },
     ..Rules::new("object")
 };
@@ -97,7 +97,8 @@ impl Plan {
 /// Asks for what an object and its parts are made of.
 fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
     let at = asks.at.clone();
-    let roles = [Some(Role::Selection), object.motion.is_moved().then_some(Role::Ghost)];
+    let leaves_ghost = scene.leaves_ghost(item);
+    let roles = [Some(Role::Selection), leaves_ghost.then_some(Role::Ghost)];
     for role in roles.into_iter().flatten() {
         let part = match role {
             Role::Selection => PartName::Selection(object.name.clone()),
@@ -112,11 +113,12 @@ fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
     }
     let effect = format!("object {}", object.name);
     asks.pass(Pass::Selections, &effect, &at.key);
-    if object.motion.is_moved() {
-        asks.pass(Pass::MovedSelections, &effect, &at.inner("move"));
+    if leaves_ghost {
+        let key = if object.motion.is_moved() { "move" } else { "interaction" };
+        asks.pass(Pass::MovedSelections, &effect, &at.inner(key));
     }
     let cuts = [(object.ghosting, "ghosting"), (object.ghosting_of_ghost, "ghosting_of_ghost")];
-    for (_, key) in cuts.into_iter().filter(|(ghosting, key)| *ghosting > 0.0 && acts(object, key)) {
+    for (_, key) in cuts.into_iter().filter(|(ghosting, key)| *ghosting > 0.0 && acts(leaves_ghost, key)) {
         asks.pass(Pass::Cutaways, &effect, &at.inner(key));
         if object.funnel.is_some() {
             asks.pass(Pass::Funnels, &effect, &at.inner("funnel"));
@@ -124,23 +126,27 @@ fn asks_of(scene: &Scene, item: usize, object: &ObjectTable, asks: &mut Asks) {
     }
 }
 
-/// Whether a ghosting factor acts: only a moved object has a ghost.
-fn acts(object: &ObjectTable, key: &str) -> bool {
-    key == "ghosting" || object.motion.is_moved()
+/// Whether a ghosting factor acts: that of the ghost needs one.
+fn acts(leaves_ghost: bool, key: &str) -> bool {
+    key == "ghosting" || leaves_ghost
 }
 
 /// Lists the keys of an object that its other keys make idle. `seeds_labels`: whether a halo reads the object's labels.
-fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
+fn idle_keys(scene: &Scene, object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
     let at = idle.at.clone();
+    let leaves_ghost = at.item.is_some_and(|item| scene.leaves_ghost(item));
     let mut key = |key: &str, why: &str| idle.key(&at.inner(key), why);
-    if !object.motion.is_moved() {
+    if scene.orbit.is_none() {
+        key("interaction", "the camera does not turn: there is no [orbit]");
+    }
+    if !leaves_ghost {
         key("ghosting_of_ghost", "the object is not moved: it has no ghost");
         key("ghost", "the object is not moved: it has no ghost");
     }
     if object.motion.scale == glam::DVec3::ONE && object.motion.rotation.is_none() {
         key("center", "nothing is scaled or rotated");
     }
-    if object.ghosting == 0.0 && (object.ghosting_of_ghost == 0.0 || !object.motion.is_moved()) {
+    if object.ghosting == 0.0 && (object.ghosting_of_ghost == 0.0 || !leaves_ghost) {
         key("cut", "nothing is cut away: ghosting is 0");
         key("funnel", "nothing is cut away: ghosting is 0");
     }
@@ -152,8 +158,8 @@ fn idle_keys(object: &ObjectTable, seeds_labels: bool, idle: &mut Idle) {
 /// The reason why an intersection has no effect; none if it has one.
 fn why_idle(scene: &Scene, item: usize) -> Option<&'static str> {
     let table = scene.intersections.get(item)?;
-    let object = scene.objects.iter().find(|object| object.name == table.object)?;
-    let is_moved = object.motion.is_moved();
+    let item = scene.objects.iter().position(|object| object.name == table.object)?;
+    let (object, is_moved) = (&scene.objects[item], scene.leaves_ghost(item));
     match table.with {
         Opposite::Ghost if !is_moved => Some("the object is not moved: it has no ghost"),
         Opposite::Background if !is_moved && object.volume.is_none() => {
@@ -220,6 +226,14 @@ mod tests {
             assert!(text.contains(pass), "{pass}\n{text}");
         }
         assert!(moved.idle_keys.is_empty(), "{text}");
+        // A selection that keeps its place before the eye leaves its ghost when the camera turns.
+        let pinned = "[[object]]\ninteraction = \"pinned\"\nghosting_of_ghost = 1\n[object.ghost]\n\
+                      [[intersection]]\nobject = \"object 0\"\n";
+        let turning = plan(&format!("{pinned}[orbit]\n"));
+        assert!(turning.idle_keys.is_empty() && turning.to_string().contains("moved selections"), "{turning}");
+        let keys: Vec<String> = plan(pinned).idle_keys.into_iter().map(|idle| idle.key).collect();
+        let ghost = ["ghosting_of_ghost", "ghost"].map(|key| format!("object[0].{key}"));
+        assert_eq!(keys, ["object[0].interaction", &ghost[0], &ghost[1], "intersection[0]"]);
         let still = plan(
             "[combine]\n[[object]]\ncenter = [0, 0, 0]\nghosting_of_ghost = 1\ncut = \"object\"\n[object.ghost]\n\
              [[intersection]]\nobject = \"object 0\"\nwith = \"background\"\n",

@@ -15,4 +15,4 @@ pub(crate) use part_name::PartNames;
 pub use scene_of::Role;
 pub use strokes::{Brush, Connectivity, PaintMode, PaintStroke, PaintTarget};
 pub(crate) use table::TABLE;
-pub use table::{Cut, ObjectTable};
+pub use table::{Cut, InteractionState, ObjectTable};

@@ -75,6 +75,15 @@ impl Motion {
         DAffine3 { matrix3: linear, translation }
     }
 
+    /// The motion that is an affine map.
+    pub fn of(map: DAffine3) -> Self {
+        let row = |i: usize| {
+            let DVec3 { x, y, z } = map.matrix3.row(i);
+            [x, y, z, map.translation[i]]
+        };
+        Self { matrix: Some([row(0), row(1), row(2), IDENTITY[3]]), ..Self::NONE }
+    }
+
     /// Whether M has no inverse: M flattens space, or is not finite.
     pub fn is_singular(&self) -> bool {
         let linear = self.linear();

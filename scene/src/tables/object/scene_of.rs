@@ -2,8 +2,8 @@
 
 use crate::picture::LayerKind;
 use crate::tables::{
-    Annotations, GhostTable, Halo, Ids, ObjectTable, PartName, Scene, Shading, Styles, Transfer, VolumeSource,
-    VolumeTable,
+    Annotations, GhostTable, Halo, Ids, InteractionState, ObjectTable, PartName, Scene, Shading, Styles, Transfer,
+    VolumeSource, VolumeTable,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,10 +20,24 @@ pub enum Role {
 impl Scene {
     /// The parts of the scene's objects, in their order, each object's selection before its ghost.
     pub fn parts(&self) -> impl Iterator<Item = (usize, Role)> {
-        self.objects.iter().enumerate().flat_map(|(i, object)| {
-            let ghost = object.motion.is_moved().then_some((i, Role::Ghost));
-            [(i, Role::Selection)].into_iter().chain(ghost)
-        })
+        let is_there = |&(i, role): &(usize, Role)| role == Role::Selection || self.objects[i].motion.is_moved();
+        self.parts_of_frames().filter(is_there)
+    }
+
+    /// The parts of all frames of `[orbit]`, in the order of [`Scene::parts`]. Ghosts of later frames are among them.
+    pub fn parts_of_frames(&self) -> impl Iterator<Item = (usize, Role)> {
+        (0..self.objects.len())
+            .flat_map(|i| [(i, Role::Selection)].into_iter().chain(self.leaves_ghost(i).then_some((i, Role::Ghost))))
+    }
+
+    /// Whether the selection of an object leaves its place when `[orbit]` turns the camera ([VS-9]).
+    pub fn follows_camera(&self, object: usize) -> bool {
+        self.orbit.is_some() && self.objects[object].interaction != InteractionState::Integrated
+    }
+
+    /// Whether an object has a ghost in some frame.
+    pub fn leaves_ghost(&self, object: usize) -> bool {
+        self.objects[object].motion.is_moved() || self.follows_camera(object)
     }
 
     /// The scene of a part: the object's data and material replace the picture's. Other objects, and effects that are

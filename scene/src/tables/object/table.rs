@@ -72,6 +72,10 @@ table! {
         /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
         matrix: key("VS-2", Matrix, |o| o.motion.matrix, |o, v| o.motion.matrix = Some(v))
             .absent("`move`, `scale`, `rotate` and `center`");
+        /// What the selection does while `[orbit]` turns the camera. Its ghost and the background stay in the world.
+        ///
+        /// The camera of the first frame counts.
+        interaction: InteractionState = InteractionState::Integrated, key("VS-9", InteractionState::KIND);
         /// γ: how far the background before the selection fades, 1 all of it. Contours of strong boundaries fade last.
         ghosting: f64 = 0.0, key("VS-7", UNIT).needs(&[Quantity::GradientMagnitudeRange]);
         /// γ before the ghost.
@@ -108,6 +112,20 @@ choices! {
         Bounds = "bounds",
         /// The last sample that belongs to the object.
         Object = "object",
+    }
+}
+
+choices! {
+    /// The part of a change of camera that a selection takes (VolumeShop 6.3; [VS-9]).
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+    pub enum InteractionState {
+        /// The selection belongs to the scene: M' = M.
+        Integrated = "integrated",
+        /// The selection keeps its placement before the eye: M' = V'⁻¹·V·M.
+        Decoupled = "decoupled",
+        /// The centre of the selection keeps its pixel and its eye depth, and the selection turns with the scene: M' = M
+        /// followed by a translation.
+        Pinned = "pinned",
     }
 }
 
