@@ -1,7 +1,8 @@
-//! Annotations of a job's pictures: boxes, fans, arrows, labels, a scale bar and the directions of the data ([VS-8],
-//! [VS-10]).
+//! Annotations of a job's pictures: boxes, fans, arrows, labels, a scale bar, the directions of the data and a legend
+//! ([VS-8], [VS-10]).
 
 mod labels;
+mod legend;
 mod lines;
 mod margin;
 
@@ -13,11 +14,13 @@ use drypoint_reference::volumeshop::conventions::{ArrowCurve, Fan, edge_points, 
 use drypoint_scene::annotations::AnnotationLayout;
 use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen};
+use drypoint_scene::picture::Overlay;
 use drypoint_scene::tables::{
     AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, ObjectTable, PartName,
 };
 use drypoint_scene::view::View;
 use labels::LabelAnchors;
+use legend::{DrawnLegend, NamedRow};
 use lines::Seen;
 pub(crate) use lines::plain;
 
@@ -27,6 +30,9 @@ const MOST_POINTS: usize = 20_000;
 /// Frames of a job's annotations.
 pub(crate) struct Annotating<'a> {
     job: &'a Job,
+    tables: Annotations,
+    /// The rows of the legend.
+    rows: Vec<NamedRow>,
     page: Page,
     /// The objects where they are in the frame.
     pub(crate) objects: Vec<ObjectTable>,
@@ -40,6 +46,8 @@ pub(crate) struct Annotating<'a> {
 pub(crate) struct AnnotationFrame {
     /// The layers, from the lowest.
     pub(crate) layers: Vec<Layer>,
+    /// Pixels of the picture below all layers: the spheres of a legend.
+    pub(crate) overlays: Vec<Overlay>,
     /// Labels and characters that are left out, a sentence each.
     pub(crate) notes: Vec<String>,
 }
@@ -47,15 +55,22 @@ pub(crate) struct AnnotationFrame {
 impl<'a> Annotating<'a> {
     /// Makes frames of a job's annotations. Returns none if there are none, or if the picture lacks the layer `beauty`,
     /// over which they are drawn.
-    pub(crate) fn new(job: &'a Job) -> Option<Self> {
+    ///
+    /// # Errors
+    /// A legend whose names are not as many as its rows.
+    pub(crate) fn new(job: &'a Job) -> Result<Option<Self>, Failure> {
         let is_shown = match job.target() {
             RenderTarget::Picture => job.shows_beauty(),
             RenderTarget::Marks => true,
             RenderTarget::Points | RenderTarget::Strokes => false,
         };
-        let is_drawn = is_shown && !job.scene.annotations.is_empty();
-        let objects = || job.scene.objects.clone();
-        is_drawn.then(|| Self { job, page: Page::of(&job.scene), objects: objects(), anchors: None, previous: None })
+        let tables = job.scene.all_annotations();
+        if !is_shown || tables.is_empty() {
+            return Ok(None);
+        }
+        let (rows, page) = (legend::rows(job)?, Page::of(&job.scene));
+        let objects = job.scene.objects.clone();
+        Ok(Some(Self { job, tables, rows, page, objects, anchors: None, previous: None }))
     }
 
     /// Returns the annotations that a camera sees. `renderer` is at this camera; without it nothing hides a line.
@@ -66,26 +81,40 @@ impl<'a> Annotating<'a> {
         let mut layers = self.conventions(view, renderer)?;
         let mut notes = Vec::new();
         let margin = self.margin(view)?;
-        layers.extend(self.labels(view, renderer, &margin, &mut notes)?);
+        let legend = self.legend(view, &mut notes)?;
+        let outline = legend.as_ref().map(DrawnLegend::outline);
+        let taken: Vec<Layer> = margin.iter().cloned().chain(outline).collect();
+        layers.extend(self.labels(view, renderer, &taken, &mut notes)?);
         layers.extend(margin);
+        let (layer, overlays) = legend.map(|legend| (legend.layer, legend.spheres)).unzip();
+        layers.extend(layer);
         notes.extend(self.missing(&layers));
         let mut marks = Marks { page: self.page, layers };
         marks.settle();
-        Ok(AnnotationFrame { layers: marks.layers, notes })
+        Ok(AnnotationFrame { layers: marks.layers, overlays: overlays.unwrap_or_default(), notes })
     }
 
     /// The characters that no letters are drawn for, in a sentence; none if all are.
     fn missing(&self, layers: &[Layer]) -> Option<String> {
         let texts = layers.iter().flat_map(|layer| &layer.texts).map(|text| text.characters.as_str());
         let all = texts.collect::<Vec<_>>().concat();
-        let is_plotted = self.job.scene.page.as_ref().is_some_and(|page| page.plotter);
-        let missing = if is_plotted { missing_strokes(&all) } else { missing_characters(&all) };
+        let missing = if self.is_plotted() { missing_strokes(&all) } else { missing_characters(&all) };
         let missing: String = missing.into_iter().collect();
         (!missing.is_empty()).then(|| format!("boxes stand for the characters {missing:?}, which the letters lack"))
     }
 
-    fn tables(&self) -> &'a Annotations {
-        &self.job.scene.annotations
+    /// Whether a plotter draws the page.
+    fn is_plotted(&self) -> bool {
+        self.job.scene.page.as_ref().is_some_and(|page| page.plotter)
+    }
+
+    fn tables(&self) -> &Annotations {
+        &self.tables
+    }
+
+    /// Whether rays tell what is drawn.
+    pub(crate) fn asks_rays(&self) -> bool {
+        self.tables.asks_rays()
     }
 
     /// Boxes, fans and arrows.

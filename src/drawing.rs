@@ -14,7 +14,7 @@ use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, Page, mark_counts};
-use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
+use drypoint_scene::picture::{Layer, LayerKind, Overlay, Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::{Orbit, Scene};
@@ -60,6 +60,8 @@ pub struct Frame {
     pub marks: Option<Marks>,
     /// Number of lines inside the picture.
     pub inside: usize,
+    /// Pixels over the picture, below the marks.
+    pub overlays: Vec<Overlay>,
     /// Annotations that are left out, a sentence each.
     pub notes: Vec<String>,
 }
@@ -95,7 +97,7 @@ impl<'a> Drawing<'a> {
     /// drawn.
     ///
     /// # Errors
-    /// The camera has no direction.
+    /// The camera has no direction, or a legend has a wrong number of names.
     pub fn with_frames(
         job: &'a Job,
         marking: &'a Marking<'a>,
@@ -106,8 +108,8 @@ impl<'a> Drawing<'a> {
         let (first, orbit) = (job.view()?, job.scene.orbit);
         let draws_volume = renderer.is_some();
         let shot = orbit.filter(|_| draws_volume && !job.moves_selections()).map(|_| job.shot()).transpose()?;
-        let annotations = Annotating::new(job);
-        let asks_rays = annotations.is_some() && job.scene.annotations.asks_rays();
+        let annotations = Annotating::new(job)?;
+        let asks_rays = annotations.as_ref().is_some_and(Annotating::asks_rays);
         let is_on_card = renderer.as_ref().is_some_and(|renderer| renderer.reference().is_none());
         let sight = (asks_rays && is_on_card).then(|| job.renderer()).transpose()?;
         Ok(Self { job, first, orbit, shot, prepared: Some(0), draws_volume, renderer, marks, annotations, sight })
@@ -189,17 +191,17 @@ impl<'a> Drawing<'a> {
             None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
         // Annotations over both.
-        let mut notes = Vec::new();
+        let (mut overlays, mut notes) = (Vec::new(), Vec::new());
         if let Some(annotations) = &mut self.annotations {
             let start = Instant::now();
             let of_frames = self.renderer.as_ref().and_then(|renderer| renderer.reference());
             let drawn = annotations.draw(&view, of_frames.or(self.sight.as_ref()))?;
             let marks = marks.get_or_insert_with(|| Marks { page: Page::of(scene), layers: Vec::new() });
             drawn.layers.into_iter().for_each(|layer| add(&mut marks.layers, layer));
-            notes = drawn.notes;
+            (overlays, notes) = (drawn.overlays, drawn.notes);
             counts.seconds.insert("annotations".into(), start.elapsed().as_secs_f64());
         }
-        Ok(Some((Frame { number: frame, picture, marks, inside, notes }, counts)))
+        Ok(Some((Frame { number: frame, picture, marks, inside, overlays, notes }, counts)))
     }
 
     /// Prepares the scene of a frame, if frames have scenes of their own.
@@ -230,6 +232,11 @@ impl<'a> Drawing<'a> {
 }
 
 impl Frame {
+    /// Makes a frame of marks alone.
+    pub(crate) fn of_marks(marks: Marks) -> Self {
+        Self { number: 0, picture: None, marks: Some(marks), inside: 0, overlays: Vec::new(), notes: Vec::new() }
+    }
+
     /// Returns the numbers of dots and lines.
     pub fn marks(&self) -> [usize; 2] {
         let [dots, lines] = self.marks.as_ref().map(|marks| mark_counts(&marks.layers)).unwrap_or_default();
@@ -242,7 +249,9 @@ impl Frame {
     /// # Errors
     /// The picture has no pixels or too many.
     pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
-        FrameWriter::of(job, self.number).painted(self.picture, self.marks.as_ref())
+        let writer = FrameWriter::of(job, self.number);
+        let frame = writer.composed(self)?;
+        writer.painted(frame.picture, frame.marks.as_ref())
     }
 
     /// Writes the frame in the format of the suffix. The file appears whole or not at all. A list has the dots, or for
@@ -262,7 +271,7 @@ impl Frame {
 /// Same errors as [`Frame::write`].
 pub fn write_page(marks: Marks, scene: &Scene, target: RenderTarget, path: &Path) -> Result<WriteReport, Failure> {
     let provenance = provenance(scene, &Plan::of_marks(scene));
-    let frame = Frame { number: 0, picture: None, marks: Some(marks), inside: 0, notes: Vec::new() };
+    let frame = Frame::of_marks(marks);
     FrameWriter { scene, target, provenance }.write(frame, path)
 }
 

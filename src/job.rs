@@ -57,6 +57,7 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::{NodesPlan, Pass, Plan};
 use drypoint_scene::shot::{Shot, VolumeFacts};
 use drypoint_scene::source::{Disk, Source};
+use drypoint_scene::style::Style;
 use drypoint_scene::tables::{
     Background, Ids, ObjectTable, PartName, RaysPerPixel, Role, Scene, StepAlong, VolumeTable,
 };
@@ -221,7 +222,9 @@ impl Job {
             objects,
             label_names,
         };
-        if job.scene.annotations.asks_labels() && job.plan.has_pass(Pass::Annotations) {
+        if (job.scene.annotations.asks_labels() || job.scene.legend_lists_labels())
+            && job.plan.has_pass(Pass::Annotations)
+        {
             job.label_names = job.load_labels()?;
         }
         if job.draws_volume() && !job.scene.objects.is_empty() {
@@ -270,6 +273,11 @@ impl Job {
     /// Returns the transfer function that dots take their colours from, if any.
     pub(crate) fn function(&self) -> Option<&Function> {
         self.assets.function.as_deref()
+    }
+
+    /// Returns a style that the transfer function names, if it is loaded.
+    pub(crate) fn style(&self, name: &str) -> Option<&Style> {
+        self.assets.styles.iter().find(|style| style.name == name)
     }
 
     /// Returns the values of nodes of the scene's function and of its objects' functions. Only functions whose nodes

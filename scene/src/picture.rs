@@ -1,5 +1,6 @@
 //! A rendered picture as plain layers, before any file format.
 
+use crate::color::Rgba;
 use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
@@ -14,6 +15,17 @@ pub struct Picture {
     pub height: usize,
     /// The layers, in the order in which the scene asked for them.
     pub layers: Vec<Layer>,
+}
+
+/// Pixels that are laid over a part of a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overlay {
+    /// Column and row of the upper left pixel in the picture.
+    pub corner: [usize; 2],
+    /// Pixels from left to right.
+    pub width: usize,
+    /// Pixels row by row from the top, linear and premultiplied.
+    pub pixels: Vec<Rgba>,
 }
 
 /// One layer of a picture: channels of `width · height` numbers, row by row from the top.

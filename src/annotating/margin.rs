@@ -100,7 +100,7 @@ impl Annotating<'_> {
     }
 
     /// Returns the upper left corner of a box in a corner of the picture, in mm.
-    fn in_corner(&self, corner: Corner, size: DVec2, inset: f64) -> DVec2 {
+    pub(super) fn in_corner(&self, corner: Corner, size: DVec2, inset: f64) -> DVec2 {
         let (lo, hi) = (self.page.margin + inset, self.page.size - (self.page.margin + inset) - size);
         let x = match corner {
             Corner::TopLeft | Corner::BottomLeft => lo,

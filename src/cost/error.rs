@@ -45,6 +45,6 @@ pub(super) fn error(job: &Job, made: &SettingOutput, truth: &SettingOutput) -> R
 
 /// Returns marks on their background, in pixels.
 fn painted(job: &Job, marks: &Marks) -> Result<Image, Failure> {
-    let frame = Frame { number: 0, picture: None, marks: Some(marks.clone()), inside: 0, notes: Vec::new() };
+    let frame = Frame::of_marks(marks.clone());
     Ok(Image::from(&frame.painted(job)?))
 }

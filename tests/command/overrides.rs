@@ -61,7 +61,7 @@ fn what_leads_nowhere_is_refused() {
         ),
         (
             "--set conturs=off",
-            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, combine, object, intersection, stipples, hatching, outlines, surface, mesh, box, arrow, fan, label, labels, scale_bar, orientation\n",
+            "error: a scene has no key \"conturs\"\n  at: --set conturs=off, key conturs\n  try: write \"contours\"; the keys here are drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, combine, object, intersection, stipples, hatching, outlines, surface, mesh, box, arrow, fan, label, labels, scale_bar, orientation, legend\n",
         ),
         (
             "--set camera.fov=x --set a --set b",

@@ -1,11 +1,16 @@
 //! Annotated pages as poppler reads them: labels are text, and no two lie on each other.
 
 use crate::outside::run;
-use drypoint::drawing::Drawing;
+use drypoint::drawing::{Drawing, Frame};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
+use drypoint::output::text::font::extent;
+use drypoint::reference::style_transfer_functions::SphereMap;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::picture::Picture;
+use drypoint::scene::source::Disk;
+use drypoint::scene::style::Theme;
 use std::path::Path;
 
 /// A phantom with a box, an arrow, a fan, labels, a scale bar and letters.
@@ -52,12 +57,18 @@ text = "picked"
 
 /// Writes the page and returns the notes.
 fn write(text: &str, path: &Path) -> Vec<String> {
+    let (job, frame) = drawn(text);
+    frame.write(&job, path).unwrap().notes
+}
+
+/// Draws a frame.
+fn drawn(text: &str) -> (Job, Frame) {
     let scene = parse(text, Path::new("scene.toml"), &Overrides::default()).unwrap();
     let job = Job::load(scene).unwrap();
     let mut counts = Counts::default();
     let marking = Marking::new(&job, &mut counts, &|_| ()).unwrap();
-    let (frame, _) = Drawing::new(&job, &marking, &mut counts).unwrap().frame(0, &|_| ()).unwrap();
-    frame.write(&job, path).unwrap().notes
+    let frame = Drawing::new(&job, &marking, &mut counts).unwrap().frame(0, &|_| ()).unwrap().0;
+    (job, frame)
 }
 
 #[test]
@@ -113,4 +124,119 @@ fn labels_without_room_and_missing_characters_are_told() {
     // The box is wider than the letters, and the label may meet another one.
     let last = strange.last().map(String::as_str);
     assert_eq!(last, Some("boxes stand for the characters \"\u{732b}\", which the letters lack"));
+}
+
+/// An arrow and a fan of an object are those of tables from its ghost to its selection.
+#[test]
+fn an_object_has_its_arrow_and_its_fan() {
+    let bare = SCENE.replace("[[arrow]]\nends = \"box\"\n[[fan]]\nshape = \"circle\"\n", "");
+    let own = bare.replace("move = [0, 0, 22]\n", "move = [0, 0, 22]\narrow = true\nfan = true\n");
+    let ends = "from = \"Größe ghost\"\nto = \"Größe\"\n";
+    let tables = format!("{bare}[[arrow]]\n{ends}[[fan]]\n{ends}");
+    let [own, tables, bare] = [&own, &tables, &bare].map(|text| drawn(text).1);
+    assert_eq!((own.picture, own.marks), (tables.picture, tables.marks.clone()));
+    assert_ne!(tables.marks, bare.marks);
+}
+
+/// A phantom in two styles, with a legend.
+const LEGEND: &str = r##"drypoint = 1
+[volume]
+phantom = { name = "specimen", size = 24 }
+[picture]
+size = [240, 180]
+dpi = 200
+background = "#f0e8d8"
+layers = ["beauty", "Z"]
+[transfer]
+nodes = [{ at = 60, style = "wax", opacity = 0 }, { at = 200, style = "wax", opacity = 0.4 }, { at = 250, style = "metal" }]
+[legend]
+title = "Tissues"
+size = "2 mm"
+"##;
+
+/// The texts of the legend of a frame.
+fn texts(frame: &Frame) -> Vec<&str> {
+    let layers = frame.marks.iter().flat_map(|marks| &marks.layers);
+    layers.flat_map(|layer| &layer.texts).map(|text| text.characters.as_str()).collect()
+}
+
+#[test]
+fn a_legend_covers_its_spheres_and_its_letters_alone() {
+    let (job, frame) = drawn(LEGEND);
+    let without = LEGEND.replace("[legend]\ntitle = \"Tissues\"\nsize = \"2 mm\"\n", "");
+    let (bare_job, bare) = drawn(&without);
+    assert_eq!(texts(&frame), ["Tissues", "wax", "metal"]);
+    assert_eq!(bare.marks, None);
+    let (spheres, letters) = (frame.overlays.clone(), frame.marks.clone().unwrap());
+    let [with, bare] = [frame.painted(&job).unwrap(), bare.painted(&bare_job).unwrap()];
+    // Other layers stay as they are.
+    assert_eq!(with.layers[1], bare.layers[1]);
+    let pixel = |picture: &Picture, x: usize, y: usize| -> [f64; 4] {
+        std::array::from_fn(|c| picture.layers[0].channels[c][y * picture.width + x])
+    };
+    // The rectangles around spheres and letters, in pixels.
+    let scale = 200.0 / 25.4;
+    let mut covered: Vec<[f64; 4]> = Vec::new();
+    for text in letters.layers.iter().flat_map(|layer| &layer.texts) {
+        let extent = extent(&text.characters, text.size);
+        let [lo, hi] = [text.at.y - extent.ascent, text.at.y + extent.descent].map(|y| y * scale);
+        covered.push([text.at.x * scale - 2.0, lo - 1.0, (text.at.x + extent.advance) * scale + 2.0, hi + 1.0]);
+    }
+    for sphere in &spheres {
+        let [x, y] = sphere.corner.map(|c| c as f64);
+        let high = (sphere.pixels.len() / sphere.width) as f64;
+        covered.push([x, y, x + sphere.width as f64, y + high]);
+    }
+    let mut changed = 0;
+    for (x, y) in (0..240 * 180).map(|i| (i % 240, i / 240)) {
+        let at = [x as f64 + 0.5, y as f64 + 0.5];
+        let is_covered = covered.iter().any(|[l, t, r, b]| (*l..*r).contains(&at[0]) && (*t..*b).contains(&at[1]));
+        let is_changed = pixel(&with, x, y) != pixel(&bare, x, y);
+        assert!(is_covered || !is_changed, "{x}, {y}");
+        changed += usize::from(is_changed);
+    }
+    assert!(changed > 1000, "{changed}");
+    // The middle of a sphere has the style's colour where it faces the eye.
+    let theme = Theme::open(&Disk, &job.scene.styles.theme).unwrap();
+    for (sphere, name) in spheres.iter().zip(["wax", "metal"]) {
+        let style = theme.style(&Disk, name).unwrap().unwrap();
+        let [x, y] = [sphere.corner[0] + sphere.width / 2, sphere.corner[1] + sphere.width / 2];
+        let expected = SphereMap::new(&style).sample(0.0, 0.0);
+        let found = pixel(&with, x, y);
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.01), "{name}: {found:?} {expected:?}");
+    }
+}
+
+#[test]
+fn a_legend_has_the_names_that_are_given() {
+    let scene = LEGEND.replace("title = \"Tissues\"", "names = [\"\", \"bone\"]");
+    let (_, frame) = drawn(&scene);
+    assert_eq!((texts(&frame), frame.overlays.len()), (vec!["bone"], 1));
+    // An automatic function has its rows with the data.
+    let start = scene.find("[transfer]").unwrap();
+    let automatic =
+        format!("{}[legend]\nnames = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\", \"h\"]\n", &scene[..start]);
+    let job = Job::load(parse(&automatic, Path::new("s.toml"), &Overrides::default()).unwrap()).unwrap();
+    let marking = Marking::new(&job, &mut Counts::default(), &|_| ()).unwrap();
+    let failure = Drawing::new(&job, &marking, &mut Counts::default()).err().unwrap();
+    assert!(failure.what.starts_with("legend.names has 8 names, and the legend has "), "{failure}");
+    assert!(failure.place.ends_with("key legend.names"), "{failure}");
+}
+
+/// Colours are circles of their own colour, in vectors too; a plotter draws empty ones.
+#[test]
+fn colours_of_a_legend_are_areas() {
+    let scene =
+        LEGEND.replace("style = \"wax\"", "color = \"#c08040\"").replace("style = \"metal\"", "color = \"#fff\"");
+    let scene = scene.replace("[transfer]", "[transfer]\nkind = \"regular\"");
+    let (_, frame) = drawn(&scene);
+    assert_eq!((texts(&frame), frame.overlays.len()), (vec!["Tissues", "200", "250"], 0));
+    let legend = &frame.marks.as_ref().unwrap().layers[0];
+    assert_eq!([legend.areas.len(), legend.lines.len()], [2, 2]);
+    let (_, plotted) = drawn(&LEGEND.replace("[legend]", "[page]\nplotter = true\n[legend]"));
+    let legend = &plotted.marks.as_ref().unwrap().layers[0];
+    assert_eq!([legend.areas.len(), legend.lines.len(), plotted.overlays.len()], [0, 2, 0]);
+    assert!(plotted.notes[0].starts_with("the legend has circles"), "{:?}", plotted.notes);
+    let (_, small) = drawn(&LEGEND.replace("2 mm", "3 mm"));
+    assert!(small.notes[0].starts_with("the legend is larger than the picture"), "{:?}", small.notes);
 }

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use toml::Value;
 
 /// Keys that the generator does not draw, each with why: a key with all below it.
-const NOT_DRAWN: [(&str, &str); 25] = [
+const NOT_DRAWN: [(&str, &str); 26] = [
     ("drypoint", "it has one value"),
     ("preset", "it fills in tables that a drawn scene has itself"),
     ("picture.width", "another word for size, which is drawn"),
@@ -21,6 +21,7 @@ const NOT_DRAWN: [(&str, &str); 25] = [
     ("label", "no picture of rays depends on it: tests of output draw it"),
     ("labels", "no picture of rays depends on it: tests of output draw labels"),
     ("scale_bar", "no picture of rays depends on it: tests of output draw it"),
+    ("legend", "no picture of rays depends on it: tests of output draw it"),
     ("orientation", "no picture of rays depends on it: tests of output draw it"),
     ("combine", "tests of the paper draw objects"),
     ("intersection", "tests of the paper draw objects"),

@@ -5,6 +5,7 @@ mod canvas;
 mod fills;
 mod fragments;
 mod lines;
+mod overlay;
 mod pixel_rect;
 
 use crate::OutputError;
@@ -19,6 +20,7 @@ use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::tables::BlendSpace;
 
 pub use fragments::fragments;
+pub use overlay::overlay;
 
 /// The part of a page that a picture shows, and its scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +43,13 @@ impl PageWindow {
     }
 
     /// Returns a point on the page in pixels of the picture.
-    fn place(&self, at: DVec2) -> [f64; 2] {
+    pub fn place(&self, at: DVec2) -> [f64; 2] {
         ((at - self.corner) * self.scale).to_array()
     }
 
     /// Returns a length in pixels, scaled so that areas are kept. Rounding a size in mm makes the scales across and
     /// down differ slightly.
-    fn length(&self, mm: f64) -> f64 {
+    pub fn length(&self, mm: f64) -> f64 {
         mm * (self.scale.x * self.scale.y).sqrt()
     }
 }
@@ -92,10 +94,7 @@ pub fn blank(page: &Page, background: Option<Rgba>) -> Result<Picture, OutputErr
 pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mut Picture) -> Result<(), OutputError> {
     check_finite(marks)?;
     let size = [picture.width, picture.height];
-    let at = picture.layers.iter().position(|layer| layer.kind == LayerKind::Beauty);
-    let at = at.ok_or_else(|| fault(LayerKind::Beauty, "the picture does not have it".into()))?;
-    check(picture, &picture.layers[at])?;
-    let mut canvas = Canvas::new(&mut picture.layers[at].channels, blend);
+    let mut canvas = Canvas::new(&mut beauty(picture)?.channels, blend);
     let mut scratch = Scratch::default();
     for layer in &marks.layers {
         let ink = canvas.ink(layer.pen.color);
@@ -111,6 +110,14 @@ pub fn paint(marks: &Marks, window: &PageWindow, blend: BlendSpace, picture: &mu
     }
     canvas.finish();
     Ok(())
+}
+
+/// The layer that is painted on.
+fn beauty(picture: &mut Picture) -> Result<&mut Layer, OutputError> {
+    let at = picture.layers.iter().position(|layer| layer.kind == LayerKind::Beauty);
+    let at = at.ok_or_else(|| fault(LayerKind::Beauty, "the picture does not have it".into()))?;
+    check(picture, &picture.layers[at])?;
+    Ok(&mut picture.layers[at])
 }
 
 #[cfg(test)]

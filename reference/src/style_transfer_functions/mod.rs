@@ -12,6 +12,7 @@ pub mod curvature_along_ray;
 pub mod extract;
 pub mod frame;
 pub(crate) mod lanes;
+mod lit_disc;
 pub mod lookup;
 pub mod mipmaps;
 mod preview;
@@ -19,6 +20,7 @@ pub mod sphere_map;
 pub mod transparency;
 
 pub use contour::Contour;
+pub use lit_disc::lit_disc;
 pub use lookup::{Blend, Blend2, Spheres, StyleIndex};
 pub use mipmaps::{Detail, Footprint, MipMap};
 pub use preview::preview;

@@ -122,8 +122,7 @@ fn read(text: &str, volume: Option<&Path>, overrides: &Overrides, check: &mut Ch
         replaced.finish(&mut scene, check);
     }
     checks::check(&scene, check);
-    if scene.transfer.is_none() && scene.surface.is_none() && !scene.has_marks() {
-        // The preset `style`, for a scene that would draw nothing ([SCN-3]).
+    if scene.would_draw_nothing() {
         scene.transfer = Some(Transfer::automatic(TransferKind::Style));
     }
     Some(scene)

@@ -91,7 +91,7 @@ pub enum Pass {
     MergedStrokes,
     /// Gaps in strokes where nearer lines cross them ([HATCH-20]).
     Gaps,
-    /// Boxes, arrows, fans, labels, scale bar and orientation ([VS-8], [VS-10]).
+    /// Boxes, arrows, fans, labels, scale bar, orientation and legend ([VS-8], [VS-10]).
     Annotations,
 }
 

@@ -43,7 +43,8 @@ pub mod volume;
 pub use crate::length::Length;
 pub use annotation::{
     AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, BoxTable, Corner, FanShape, FanTable, LabelAnchor,
-    LabelLayout, LabelSource, LabelTable, LabelsTable, LineStyle, Orientation, ScaleBar,
+    LabelLayout, LabelSource, LabelTable, LabelsTable, Legend, LegendEntry, LegendRow, LineStyle, Orientation,
+    ScaleBar,
 };
 pub use camera::{Camera, Projection};
 pub use clip::{Clip, ClipSpace};

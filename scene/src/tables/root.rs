@@ -1,6 +1,6 @@
 //! The description of a whole scene file ([SCN-1], [SCN-3]).
 
-use super::annotation::{arrow, bounding_box, fan, label, orientation, scale_bar};
+use super::annotation::{arrow, bounding_box, fan, label, legend, orientation, scale_bar};
 use super::preset::PRESETS;
 use super::{
     Halo, ObjectTable, Scene, camera, clip, combine, contours, halo, hatching, intersection, mesh, object, orbit,
@@ -148,6 +148,9 @@ pub(crate) static ROOT: Table<Scene> = Table {
             /// The directions of the data.
             orientation: key("VS-8", TableOf(&orientation::TABLE),
                 |s| s.annotations.orientation.clone(), |s, v| s.annotations.orientation = Some(v)).absent("none");
+            /// The styles or colours of the transfer function, with names.
+            legend: key("VS-8", TableOf(&legend::TABLE),
+                |s| s.annotations.legend.clone(), |s, v| s.annotations.legend = Some(v)).absent("none");
         } },
     )
 };

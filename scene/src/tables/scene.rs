@@ -58,7 +58,7 @@ pub struct Scene {
     pub surface: Option<Surface>,
     /// Opaque meshes, in their order.
     pub meshes: Vec<MeshTable>,
-    /// Boxes, arrows, fans, labels, scale bar and directions over the picture.
+    /// Boxes, arrows, fans, labels, scale bar, directions and legend over the picture.
     pub annotations: Annotations,
     /// The keys that the scene gives itself, and their places. Comparisons of scenes ignore this field.
     pub given: Given,
@@ -99,12 +99,17 @@ impl Scene {
 
     /// Whether points, lines or annotations are drawn, which have lengths on the page.
     pub fn draws_on_page(&self) -> bool {
-        self.has_marks() || !self.annotations.is_empty()
+        self.has_marks() || !self.all_annotations().is_empty()
     }
 
     /// Whether strokes are drawn.
     pub fn has_strokes(&self) -> bool {
         self.outlines.is_some() || self.hatching.is_some()
+    }
+
+    /// Whether the scene has nothing to draw, so that the preset `style` supplies its transfer function ([SCN-3]).
+    pub(crate) fn would_draw_nothing(&self) -> bool {
+        self.transfer.is_none() && self.surface.is_none() && !self.has_marks()
     }
 
     /// Whether rays draw the volume itself, or what stands beside it ([SCN-3]).

@@ -8,7 +8,55 @@ use crate::tables::{AnnotatedPlace, LabelKey, Scene};
 /// Reports ends of arrows and fans that nothing tells, and labels of structures without a label volume.
 pub(super) fn check(scene: &Scene, check: &mut Check) {
     ends(scene, check);
+    of_objects(scene, check);
     labels(scene, check);
+    legend(scene, check);
+}
+
+/// A legend lists a function over the value or over labels, and has a name for each row or none at all. The rows of an
+/// automatic function are known only with the data, and so are those of the preset's.
+fn legend(scene: &Scene, check: &mut Check) {
+    let Some(legend) = scene.annotations.legend.as_ref().filter(|_| check.sound(&["transfer", "legend"])) else {
+        return;
+    };
+    let mut fault = |key: &str, what: String, remedy: String| {
+        check.fault_in(key, Problem::Contradiction { what, remedy });
+    };
+    let Some(transfer) = &scene.transfer else {
+        if scene.would_draw_nothing() {
+            return;
+        }
+        let what = "a legend lists the looks of [transfer], and there is none".into();
+        return fault("legend", what, "add a table [transfer], or remove [legend]".into());
+    };
+    match transfer.legend_rows() {
+        None => {
+            let second = transfer.over.second().map_or("", |axis| axis.name());
+            let what =
+                format!("a legend lists functions over the value or over labels, and this one is over {second:?}");
+            fault("legend", what, "remove [legend], or name the looks in the caption".into());
+        }
+        Some(rows) => {
+            if let Some((what, remedy)) = legend.wrong_names(rows.len()).filter(|_| !transfer.is_automatic()) {
+                fault("legend.names", what, remedy);
+            }
+        }
+    }
+}
+
+/// An arrow or a fan of an object begins at its ghost.
+fn of_objects(scene: &Scene, check: &mut Check) {
+    if !check.sound(&["object"]) {
+        return;
+    }
+    for (i, object) in scene.objects.iter().enumerate().filter(|&(i, _)| !scene.leaves_ghost(i)) {
+        for (key, _) in [("arrow", object.arrow), ("fan", object.fan)].into_iter().filter(|(_, is_asked)| *is_asked) {
+            let key = format!("object[{i}].{key}");
+            let what = format!("{key} begins at the ghost, and {:?} is not moved: it has no ghost", object.name);
+            let remedy = format!("move {:?}, or take the key away", object.name);
+            check.fault_in(&key, Problem::Contradiction { what, remedy });
+        }
+    }
 }
 
 /// An arrow or a fan without an end leads from the ghost to the selection of the one object that is moved.
@@ -77,7 +125,18 @@ mod tests {
         for (rest, what) in [
             ("[[arrow]]\n", "arrow[0].from is missing, and 0 objects are moved\n"),
             ("[[fan]]\nfrom = [0, 0, 0]\nto = \"background\"\n", "fan[0].from is a point, and a fan joins"),
+            ("[[object]]\narrow = true\n", "object[0].arrow begins at the ghost, and \"object 0\" is not moved"),
+            ("[[object]]\nname = \"a\"\nfan = true\n", "object[0].fan begins at the ghost, and \"a\" is not moved"),
             ("[[box]]\nof = \"liver\"\n", "box[0].of"),
+            ("[legend]\n[surface]\niso = 3\n", "a legend lists the looks of [transfer], and there is none"),
+            (
+                "[legend]\n[transfer]\nover = [\"value\", \"k1\"]\nrows = [{ at = 1, nodes = [{ at = 1, style = \"wax\" }] }]\n",
+                "over \"k1\"",
+            ),
+            (
+                "[legend]\nnames = [\"a\"]\n[transfer]\nnodes = [{ at = 1, style = \"wax\" }, { at = 2, style = \"metal\" }]\n",
+                "legend.names has 1 name, and the legend has 2 rows",
+            ),
             ("[[label]]\n", "the label names nothing\n"),
             ("[[label]]\nat = [0, 0, 0]\n", "the label has no text\n"),
             ("[[label]]\nfrom = \"labels\"\n", "label[0].from names structures of a label volume"),
@@ -97,6 +156,9 @@ mod tests {
             assert!(scene.transfer.is_some());
             Plan::new(&scene).passes.iter().any(|need| need.pass == crate::plan::Pass::Annotations)
         };
+        let moved = "[[object]]\nmove = [1, 0, 0]\n";
+        assert!(has(&format!("{moved}arrow = true\n")) && has(&format!("{moved}fan = true\n")) && !has(moved));
+        assert!(has("[legend]\nnames = [\"a\"]\n"));
         assert!(has("[scale_bar]\n") && has("[orientation]\n") && has("[[box]]\n"));
         assert!(!has("") && !has("[[box]]\nshow = \"draft\"\n") && !has("[labels]\n"));
         let idle = |rest: &str| -> Vec<String> {

@@ -40,6 +40,7 @@ const FROM_LABELS: (&str, &str) = ("label", "[{ from = \"labels\" }]");
 const LABEL_VOLUME: (&str, &str) = ("volume.labels", "parts.nrrd");
 const LABELS: (&str, &str) = ("labels", "{}");
 const SCALE_BAR: (&str, &str) = ("scale_bar", "{}");
+const LEGEND: (&str, &str) = ("legend", "{}");
 const ORIENTATION: (&str, &str) = ("orientation", "{}");
 const PEN: (&str, &str) = ("pen", "[{ name = \"red\" }]");
 const STIPPLES: (&str, &str) = ("stipples", "{}");
@@ -252,6 +253,8 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("object[0].ghosting_of_ghost", &[OBJECT], "0.8"),
     ("object[0].cut", &[OBJECT], "object"),
     ("object[0].funnel", &[OBJECT], "12 px"),
+    ("object[0].arrow", &[TURNED], "true"),
+    ("object[0].fan", &[TURNED], "true"),
     ("object[0].active", &[OBJECT], "true"),
     ("object[0].highlight", &[OBJECT], "true"),
     ("object[0].transfer", &[OBJECT], "{}"),
@@ -460,6 +463,14 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("orientation.color", &[ORIENTATION], "red"),
     ("orientation.width", &[ORIENTATION], "2 px"),
     ("orientation.pen", &[ORIENTATION], "red"),
+    ("legend", &[], "{}"),
+    ("legend.corner", &[LEGEND], "bottom-right"),
+    ("legend.size", &[LEGEND], "2 mm"),
+    ("legend.names", &[LEGEND], "[\"skin\", \"\"]"),
+    ("legend.title", &[LEGEND], "Tissues"),
+    ("legend.color", &[LEGEND], "red"),
+    ("legend.width", &[LEGEND], "2 px"),
+    ("legend.pen", &[LEGEND], "red"),
 ];
 
 /// Keys that can have one value only, so far.

@@ -105,7 +105,7 @@ fn faults_of_overrides_name_them() {
         (
             ("contour", "off"),
             "a scene has no key \"contour\"\n  at --set contour=off, key contour\n  write \"contours\"; the keys here are \
-             drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, combine, object, intersection, stipples, hatching, outlines, surface, mesh, box, arrow, fan, label, labels, scale_bar, orientation",
+             drypoint, preset, light, volume, clip, camera, orbit, picture, page, pen, sampling, transfer, styles, shading, contours, style_mipmaps, halo, combine, object, intersection, stipples, hatching, outlines, surface, mesh, box, arrow, fan, label, labels, scale_bar, orientation, legend",
         ),
         (
             ("contours.thicknes", "off"),

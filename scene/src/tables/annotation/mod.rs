@@ -1,11 +1,14 @@
-//! The tables of what is laid over a picture: boxes, arrows, fans, labels, scale bar, orientation ([VS-8], [VS-10]).
+//! The tables of what is laid over a picture: boxes, arrows, fans, labels, scale bar, orientation, legend ([VS-8], [VS-10]).
 
 pub(crate) mod arrow;
 pub(crate) mod bounding_box;
 mod end;
 pub(crate) mod fan;
 pub(crate) mod label;
+pub(crate) mod legend;
+mod legend_rows;
 mod line;
+mod of_objects;
 pub(crate) mod orientation;
 pub(crate) mod scale_bar;
 
@@ -14,13 +17,16 @@ pub use bounding_box::{BoxShown, BoxTable};
 pub use end::AnnotatedPlace;
 pub use fan::{FanShape, FanTable};
 pub use label::{LabelAnchor, LabelLayout, LabelSource, LabelTable, LabelsTable};
+pub use legend::Legend;
+pub use legend_rows::{LegendEntry, LegendRow};
 pub use line::LineStyle;
 pub use orientation::Orientation;
 pub use scale_bar::{Corner, ScaleBar};
 
 use crate::tables::{Length, PartName};
 
-/// Everything that is laid over a picture.
+/// Everything that is laid over a picture. [`Scene::all_annotations`](crate::tables::Scene::all_annotations) adds what
+/// objects ask for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Annotations {
     /// Bounding boxes, in their order.
@@ -37,6 +43,8 @@ pub struct Annotations {
     pub scale_bar: Option<ScaleBar>,
     /// The directions of the data; none: none.
     pub orientation: Option<Orientation>,
+    /// The looks of the transfer function with their names; none: none.
+    pub legend: Option<Legend>,
 }
 
 impl Annotations {
@@ -48,6 +56,7 @@ impl Annotations {
             && self.labels.is_empty()
             && self.scale_bar.is_none()
             && self.orientation.is_none()
+            && self.legend.is_none()
     }
 
     /// The line of each table, with the table's key.
@@ -59,6 +68,7 @@ impl Annotations {
         all.extend(self.arrangement.iter().map(|table| ("labels".into(), &table.line)));
         all.extend(self.scale_bar.iter().map(|table| ("scale_bar".into(), &table.line)));
         all.extend(self.orientation.iter().map(|table| ("orientation".into(), &table.line)));
+        all.extend(self.legend.iter().map(|table| ("legend".into(), &table.line)));
         all
     }
 
@@ -92,6 +102,7 @@ impl Annotations {
         }
         all.extend(self.scale_bar.iter().map(|table| ("scale_bar".into(), "size", table.size)));
         all.extend(self.orientation.iter().map(|table| ("orientation".into(), "size", table.size)));
+        all.extend(self.legend.iter().map(|table| ("legend".into(), "size", table.size)));
         all
     }
 
