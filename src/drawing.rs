@@ -9,12 +9,12 @@ use crate::frames::Frames;
 use crate::gpu::Gpu;
 use crate::job::{Job, RenderTarget, provenance, render_failure};
 use crate::marking::{MarkFrames, Marking, add};
-use drypoint_output::paint::fragments;
+use drypoint_output::paint::{fragments, overlay};
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::marks::{Marks, Page, mark_counts};
-use drypoint_scene::picture::{Layer, LayerKind, Overlay, Picture, Provenance};
+use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
 use drypoint_scene::plan::Plan;
 use drypoint_scene::shot::Shot;
 use drypoint_scene::tables::{Orbit, Scene};
@@ -60,8 +60,6 @@ pub struct Frame {
     pub marks: Option<Marks>,
     /// Number of lines inside the picture.
     pub inside: usize,
-    /// Pixels over the picture, below the marks.
-    pub overlays: Vec<Overlay>,
     /// Annotations that are left out, a sentence each.
     pub notes: Vec<String>,
 }
@@ -173,7 +171,7 @@ impl<'a> Drawing<'a> {
             (None, _) => {}
         }
         // The volume from the frame's camera, or the picture behind the marks.
-        let picture = match &mut self.renderer {
+        let mut picture = match &mut self.renderer {
             Some(renderer) => {
                 if let Some(shot) = &self.shot {
                     let shot = shot.seen_from(view.clone());
@@ -191,17 +189,21 @@ impl<'a> Drawing<'a> {
             None => self.job.background.as_ref().map(|pixels| of_pixels(pixels, scene.picture.size)),
         };
         // Annotations over both.
-        let (mut overlays, mut notes) = (Vec::new(), Vec::new());
+        let mut notes = Vec::new();
         if let Some(annotations) = &mut self.annotations {
             let start = Instant::now();
             let of_frames = self.renderer.as_ref().and_then(|renderer| renderer.reference());
             let drawn = annotations.draw(&view, of_frames.or(self.sight.as_ref()))?;
             let marks = marks.get_or_insert_with(|| Marks { page: Page::of(scene), layers: Vec::new() });
             drawn.layers.into_iter().for_each(|layer| add(&mut marks.layers, layer));
-            (overlays, notes) = (drawn.overlays, drawn.notes);
+            if let Some(picture) = &mut picture {
+                let mut lay = |over| overlay(over, scene.picture.blend_space, picture);
+                drawn.overlays.iter().try_for_each(&mut lay).map_err(|error| Failure::picture(&error, "a legend"))?;
+            }
+            notes = drawn.notes;
             counts.seconds.insert("annotations".into(), start.elapsed().as_secs_f64());
         }
-        Ok(Some((Frame { number: frame, picture, marks, inside, overlays, notes }, counts)))
+        Ok(Some((Frame { number: frame, picture, marks, inside, notes }, counts)))
     }
 
     /// Prepares the scene of a frame, if frames have scenes of their own.
@@ -234,7 +236,7 @@ impl<'a> Drawing<'a> {
 impl Frame {
     /// Makes a frame of marks alone.
     pub(crate) fn of_marks(marks: Marks) -> Self {
-        Self { number: 0, picture: None, marks: Some(marks), inside: 0, overlays: Vec::new(), notes: Vec::new() }
+        Self { number: 0, picture: None, marks: Some(marks), inside: 0, notes: Vec::new() }
     }
 
     /// Returns the numbers of dots and lines.
@@ -249,9 +251,7 @@ impl Frame {
     /// # Errors
     /// The picture has no pixels or too many.
     pub fn painted(self, job: &Job) -> Result<Picture, Failure> {
-        let writer = FrameWriter::of(job, self.number);
-        let frame = writer.composed(self)?;
-        writer.painted(frame.picture, frame.marks.as_ref())
+        FrameWriter::of(job, self.number).painted(self.picture, self.marks.as_ref())
     }
 
     /// Writes the frame in the format of the suffix. The file appears whole or not at all. A list has the dots, or for
@@ -286,7 +286,7 @@ pub(crate) fn write_picture(
     provenance: Provenance,
     path: &Path,
 ) -> Result<WriteReport, Failure> {
-    let frame = Frame { number: 0, picture, marks: Some(marks), inside: 0, notes: Vec::new() };
+    let frame = Frame { picture, ..Frame::of_marks(marks) };
     FrameWriter { scene, target: RenderTarget::Picture, provenance }.write(frame, path)
 }
 

@@ -73,7 +73,6 @@ impl<'a> FrameWriter<'a> {
             let notes = (lines > 0).then(|| format!("{lines} lines are left out: a list has dots alone"));
             return Ok(WriteReport { marks: whole, notes: notes.into_iter().collect() });
         }
-        let frame = self.composed(frame)?;
         let planned = frame.marks.as_ref().map(|marks| self.planned(marks)).transpose()?;
         let marks = planned.as_ref().map(|planned| &*planned.marks);
         match (format, marks) {
@@ -107,7 +106,7 @@ impl<'a> FrameWriter<'a> {
             // Draws all frames; `show` writes one with its marks.
             let mut each = |show: ShowFrame<'_>| {
                 (0..frames).try_for_each(|i| {
-                    let frame = self.composed(draw(i)?)?;
+                    let frame = draw(i)?;
                     let planned = self.planned(frame.marks.as_ref().unwrap_or(&nothing))?;
                     show(frame.picture, &planned.marks)
                 })
@@ -138,16 +137,6 @@ impl<'a> FrameWriter<'a> {
             AnimationError::Drawing(failure) => failure,
             AnimationError::System(source) => wrong(OutputError::Io { path: path.into(), action: "written", source }),
         })
-    }
-
-    /// Composites the overlays of a frame over its picture.
-    pub(super) fn composed(&self, mut frame: Frame) -> Result<Frame, Failure> {
-        if let Some(picture) = frame.picture.as_mut().filter(|picture| picture.layer(LayerKind::Beauty).is_some()) {
-            for over in std::mem::take(&mut frame.overlays) {
-                paint::overlay(&over, self.scene.picture.blend_space, picture).map_err(|error| self.refused(&error))?;
-            }
-        }
-        Ok(frame)
     }
 
     /// See [`Frame::painted`].
