@@ -52,6 +52,16 @@ pub(crate) struct AnnotationFrame {
     pub(crate) notes: Vec<String>,
 }
 
+/// Returns the name of a label, as words.
+fn name_of_label(job: &Job, id: u32) -> String {
+    job.label_names.name(id).map_or_else(|| format!("label {id}"), words)
+}
+
+/// Returns an identifier as words.
+fn words(name: &str) -> String {
+    name.replace('_', " ")
+}
+
 impl<'a> Annotating<'a> {
     /// Makes frames of a job's annotations. Returns none if there are none, or if the picture lacks the layer `beauty`,
     /// over which they are drawn.

@@ -1,6 +1,6 @@
 //! Labels of structures, with their leader lines ([VS-10]).
 
-use super::{Annotating, lines};
+use super::{Annotating, lines, name_of_label};
 use crate::Failure;
 use crate::picking::point_of_pixel;
 use drypoint_output::text::font::extent;
@@ -18,6 +18,9 @@ use drypoint_scene::volume::labels::LabelVolume;
 
 /// Rays along the longer side of the picture that look for structures.
 const LOOKS: usize = 160;
+
+/// The accumulated opacity from which a structure hides what lies behind it. A veil before it has no label.
+const MOST_LIGHT: f64 = 0.5;
 
 /// The labels of a job's frames, and the places that they lead to.
 pub(super) struct LabelAnchors {
@@ -144,10 +147,7 @@ impl Annotating<'_> {
         let tables = &self.tables().labels;
         let looks = renderer.filter(|_| tables.iter().any(LabelTable::asks_what_is_seen));
         let seen = looks.map(|renderer| SeenStructures::new(view, renderer)).unwrap_or_default();
-        let name = |id: u32| match self.job.label_names.name(id) {
-            Some(name) => name.to_owned(),
-            None => format!("label {id}"),
-        };
+        let name = |id: u32| name_of_label(self.job, id);
         let mut found = Vec::new();
         for (i, label) in tables.iter().enumerate() {
             if label.from.is_some() {
@@ -248,7 +248,7 @@ impl SeenStructures {
         let [columns, rows] = [width, height].map(|side| ((side / step) as usize).max(1));
         let at = |n: usize, side: f64, steps: usize| (n as f64 + 0.5) * side / steps as f64;
         let picked: Vec<Option<Picked>> = parallel::map(columns * rows, &|i| {
-            renderer.pick([at(i % columns, width, columns), at(i / columns, height, rows)])
+            renderer.pick_from(MOST_LIGHT, [at(i % columns, width, columns), at(i / columns, height, rows)])
         });
         let id = |picked: &Option<Picked>| picked.and_then(|picked| picked.label).filter(|id| *id != 0);
         let ids: Vec<Option<u32>> = picked.iter().map(id).collect();

@@ -1,6 +1,6 @@
 //! A legend: the looks of the transfer function with their names, in a corner of the picture.
 
-use super::{Annotating, lines};
+use super::{Annotating, lines, name_of_label, words};
 use crate::Failure;
 use crate::job::{Job, RenderTarget};
 use drypoint_output::paint::PageWindow;
@@ -82,10 +82,7 @@ pub(super) fn rows(job: &Job) -> Result<Vec<NamedRow>, Failure> {
 fn name(job: &Job, row: &LegendRow<'_>) -> String {
     let label = |stand: &Stand<'_>| match *stand {
         Stand::Name(name) => words(name),
-        Stand::Number(id) => match job.label_names.name(id as u32) {
-            Some(name) => words(name),
-            None => format!("label {id}"),
-        },
+        Stand::Number(id) => name_of_label(job, id as u32),
     };
     match (row.of, row.look) {
         (LegendEntry::Labels(RowAt::Labels(labels)), NodeColor::Style(style)) if labels.len() > 1 => words(style),
@@ -93,11 +90,6 @@ fn name(job: &Job, row: &LegendRow<'_>) -> String {
         (LegendEntry::Value(_), NodeColor::Style(style)) => words(style),
         (LegendEntry::Value(value), NodeColor::Color(_)) => short(value),
     }
-}
-
-/// Returns an identifier as words.
-fn words(name: &str) -> String {
-    name.replace('_', " ")
 }
 
 impl Annotating<'_> {

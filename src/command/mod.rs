@@ -39,8 +39,12 @@ use limits::LimitArgs;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-/// Draws illustrations of volumes from CT, MRI and simulation: lit-sphere styles, contours, halos, clip planes, stipples
-/// and hatching.
+/// Draws illustrations of volumes from CT, MRI and simulation: lit-sphere styles, contours, halos, clip planes, lifted
+/// and ghosted parts with labels, stipples and hatching.
+///
+/// It implements five papers: Style Transfer Functions (Bruckner and Gröller 2007), Flexible Volumetric Halos (the same,
+/// 2007), VolumeShop (the same, 2005), Volume Stippling (Lu et al. 2002) and Interactive Volume Illustration (Nagy et al.
+/// 2002).
 ///
 /// The default verb is render: `drypoint head.nii.gz` does the same as `drypoint render head.nii.gz`. Exit codes: 0
 /// success, 1 a comparison failed, 2 bad use or bad input, 3 a comparison proved nothing, 130 interrupted, 143 or 129

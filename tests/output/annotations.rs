@@ -132,7 +132,7 @@ fn an_object_has_its_arrow_and_its_fan() {
     let bare = SCENE.replace("[[arrow]]\nends = \"box\"\n[[fan]]\nshape = \"circle\"\n", "");
     let own = bare.replace("move = [0, 0, 22]\n", "move = [0, 0, 22]\narrow = true\nfan = true\n");
     let ends = "from = \"Größe ghost\"\nto = \"Größe\"\n";
-    let tables = format!("{bare}[[arrow]]\n{ends}[[fan]]\n{ends}");
+    let tables = format!("{bare}[[arrow]]\noccluded = false\n{ends}[[fan]]\n{ends}");
     let [own, tables, bare] = [&own, &tables, &bare].map(|text| drawn(text).1);
     assert_eq!((own.picture, own.marks), (tables.picture, tables.marks.clone()));
     assert_ne!(tables.marks, bare.marks);

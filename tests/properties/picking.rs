@@ -163,6 +163,14 @@ fn faint_skin_is_passed_over() {
     assert!((6.0..6.25).contains(&faint.value), "{faint:?}");
     let first = pick(&skin([0.002, 0.002], 0.0)).unwrap();
     assert!((3.0..3.25).contains(&first.value), "{first:?}");
+    // From ½ on, 1 − 0.96⁸ = 0.28 is a veil, and 1 − 0.9⁸ = 0.57 is not: its seventh sample, in the second layer.
+    for (skin, of, stage) in [(0.04, 9.0..9.25, skin([0.04; 2], 1.0)), (0.1, 6.5..6.75, skin([0.1; 2], 1.0))] {
+        stage.render_by(|renderer| {
+            let picked = renderer.pick_from(0.5, [8.5, 7.5]).unwrap();
+            assert!(of.contains(&picked.value), "{skin}: {picked:?}");
+            renderer
+        });
+    }
 }
 
 /// Masked cells are transparent, so what lies behind is picked.

@@ -6,12 +6,13 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 /// Pages whose commands are run.
-const PAGES: [&str; 6] = [
+const PAGES: [&str; 7] = [
     "../README.md",
     "gallery.md",
     "tutorials/first-picture.md",
     "tutorials/from-a-ct-file-to-a-plotter.md",
     "tutorials/halos.md",
+    "tutorials/a-textbook-figure.md",
     "tutorials/a-style-from-a-picture.md",
 ];
 
@@ -34,9 +35,10 @@ const NOT_RUN: [&str; 6] = [
 ];
 
 /// Pictures of the docs that commands of a page write: the page, the file, and its place in `docs`.
-const PICTURES: [(&str, &str, &str); 2] = [
+const PICTURES: [(&str, &str, &str); 3] = [
     ("tutorials/first-picture.md", "four.png", "pictures/first-picture.png"),
     ("tutorials/halos.md", "four.png", "pictures/volumetric_halos/tutorial.png"),
+    ("tutorials/a-textbook-figure.md", "page.png", "pictures/volumeshop/tutorial.png"),
 ];
 
 /// Runs every command of the pages, prints its time, and keeps the pictures that pages show. Words after the command

@@ -64,7 +64,7 @@ impl Candidate {
 
 /// Picks the first visible structure on the ray through a point, in pixels from the top left corner.
 ///
-/// It is the first sample at which the accumulated opacity A reaches [`VISIBLE`]. If A stays below on the whole ray, it
+/// It is the first sample at which the accumulated opacity A reaches `visible`. If A stays below on the whole ray, it
 /// is the first sample with the largest weight. The iso-surface and meshes are samples at their own depths. Both rules
 /// converge to a place on the ray as the step becomes smaller.
 ///
@@ -74,6 +74,7 @@ pub(super) fn pick<R: Real>(
     prepared: &Prepared<'_, R>,
     labels: Option<&Labels<'_>>,
     point: [f64; 2],
+    visible: f64,
 ) -> Option<Picked> {
     let is_inside = |axis: usize| (0.0..=prepared.view.size[axis] as f64).contains(&point[axis]);
     if !(is_inside(0) && is_inside(1)) {
@@ -92,11 +93,11 @@ pub(super) fn pick<R: Real>(
         let weight = opacity - before;
         if let Some(candidate) = Candidate::of(&step)
             && weight > 0.0
-            && (opacity >= VISIBLE || heaviest.is_none_or(|(_, [most, _])| weight > most))
+            && (opacity >= visible || heaviest.is_none_or(|(_, [most, _])| weight > most))
         {
             heaviest = Some((candidate, [weight, opacity]));
         }
-        if !is_open || opacity >= VISIBLE {
+        if !is_open || opacity >= visible {
             break;
         }
     }

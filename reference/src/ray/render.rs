@@ -7,7 +7,7 @@ use super::lanes;
 use super::lattice::samples_in;
 use super::line_point::{LinePoint, line_point};
 use super::merged;
-use super::pick::{Picked, pick};
+use super::pick::{Picked, VISIBLE, pick};
 use super::prepare::{prepare, turn};
 use super::prepare_object::gradient_range;
 use super::prepared::Prepared;
@@ -262,15 +262,21 @@ impl<'a> Renderer<'a> {
     /// Picks the first visible structure on the ray through a point of the picture, in pixels from the top left corner.
     /// The centre of pixel (i, j) is (i + ½, j + ½).
     ///
-    /// It is the first sample at which the accumulated opacity reaches [`VISIBLE`](super::VISIBLE), so haze and noise
+    /// It is the first sample at which the accumulated opacity reaches [`VISIBLE`], so haze and noise
     /// in front are ignored. If the ray stays below, it is the sample with the largest weight. The iso-surface and
     /// meshes count as samples at their own depths. Lines inside the picture are ignored. Returns none if nothing is
     /// visible, or outside the picture.
     pub fn pick(&self, point: [f64; 2]) -> Option<Picked> {
+        self.pick_from(VISIBLE, point)
+    }
+
+    /// Picks what is seen at a point, as [`pick`](Self::pick) does, but from the accumulated opacity `visible` on. With
+    /// ½ it is the structure behind a veil.
+    pub fn pick_from(&self, visible: f64, point: [f64; 2]) -> Option<Picked> {
         let labels = self.labels.as_ref();
         match &self.ready {
-            Ready::F64(p) => pick(p, labels, point),
-            Ready::F32(p) => pick(p, labels, point),
+            Ready::F64(p) => pick(p, labels, point, visible),
+            Ready::F32(p) => pick(p, labels, point, visible),
         }
     }
 

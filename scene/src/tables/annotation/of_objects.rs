@@ -5,7 +5,7 @@ use crate::tables::{ObjectTable, PartName, Scene};
 
 impl Scene {
     /// All annotations: those of tables, then an arrow and a fan from ghost to selection of each object that asks for
-    /// them.
+    /// them. Nothing hides the arrow: its head ends inside the selection.
     pub fn all_annotations(&self) -> Annotations {
         let ends = |object: &ObjectTable| {
             let name = || object.name.clone();
@@ -14,7 +14,7 @@ impl Scene {
         let mut all = self.annotations.clone();
         all.arrows.extend(self.objects.iter().filter(|object| object.arrow).map(|object| {
             let [from, to] = ends(object);
-            ArrowTable { from, to, ..ArrowTable::default() }
+            ArrowTable { from, to, occluded: false, ..ArrowTable::default() }
         }));
         all.fans.extend(self.objects.iter().filter(|object| object.fan).map(|object| {
             let [from, to] = ends(object);

@@ -87,7 +87,7 @@ table! {
         /// On the page.
         funnel: Option<Length> = None,
             key("VS-7", Lengths { on: On::Picture, bounds: Bounds::NOT_NEGATIVE }).absent("a hard cut");
-        /// Whether an arrow leads from the ghost to the selection, as a table `[[arrow]]` without further keys.
+        /// Whether an arrow leads from the ghost to the selection, as a table `[[arrow]]` with `occluded = false`.
         arrow: bool = false, key("VS-8", Flag);
         /// Whether a fan joins the ghost and the selection, as a table `[[fan]]` without further keys.
         fan: bool = false, key("VS-8", Flag);
