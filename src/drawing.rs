@@ -290,6 +290,15 @@ pub(crate) fn write_picture(
     FrameWriter { scene, target: RenderTarget::Picture, provenance }.write(frame, path)
 }
 
+/// Paints marks over a picture on the page of a scene, as [`Frame::painted`] does.
+///
+/// # Errors
+/// Same errors as [`Frame::painted`].
+pub(crate) fn paint_picture(picture: Option<Picture>, marks: &Marks, scene: &Scene) -> Result<Picture, Failure> {
+    let provenance = Provenance::default();
+    FrameWriter { scene, target: RenderTarget::Picture, provenance }.painted(picture, Some(marks))
+}
+
 /// Checks that the memory budget allows the pixels of a file, before anything is drawn. A vector file has no pixels.
 ///
 /// # Errors

@@ -5,14 +5,16 @@
 
 use crate::Failure;
 use crate::annotating::plain;
-use crate::drawing::{Frame, WriteReport, write_picture};
+use crate::drawing::{Drawing, WriteReport, paint_picture, write_picture};
+use crate::gpu::Gpu;
 use crate::job::{Job, background_color, figure_provenance};
-use crate::marking::add;
+use crate::marking::{Marking, add};
 use drypoint_output::read::Image;
 use drypoint_output::sheet::{PlacedPicture, lay_out};
 use drypoint_output::text::{font::extent, wrapped};
 use drypoint_output::{OutputError, paint};
 use drypoint_reference::figure::{PanelGrid, PanelSize};
+use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{INCH, Layer, Marks, Page, Pen, Text};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
@@ -60,14 +62,25 @@ pub struct DrawnPanel {
     pub marks: Option<Marks>,
     /// The provenance of a drawn scene.
     pub provenance: Option<Provenance>,
+    /// Annotations that are left out, a sentence each.
+    pub notes: Vec<String>,
 }
 
 impl DrawnPanel {
-    /// The first frame of a scene, which was fitted to its place.
+    /// Draws the first frame of a scene, which was fitted to its place. A graphics card, if there is one, draws the volume.
+    /// `progress` is that of [`Drawing::frame`].
     ///
     /// # Errors
-    /// There is no memory for the pixels.
-    pub fn of(job: &Job, frame: Frame, layout: &FigureLayout<'_>) -> Result<Self, Failure> {
+    /// The errors of [`Drawing::on`] and [`Drawing::frame`], and no memory for the pixels.
+    pub fn draw(
+        job: &Job,
+        layout: &FigureLayout<'_>,
+        card: Option<&Gpu>,
+        progress: &(dyn Fn(f64) + Sync),
+    ) -> Result<Self, Failure> {
+        let mut counts = Counts::default();
+        let marking = Marking::new(job, &mut counts, &|_| ())?;
+        let (frame, _) = Drawing::on(job, &marking, card, &mut counts)?.frame(0, progress)?;
         let background = background_color(&job.scene).filter(|color| *color != layout.figure.figure.background);
         let picture = match (&frame.picture, background.filter(|_| !layout.is_plotted())) {
             (Some(picture), _) => Some(Image::from(picture)),
@@ -77,7 +90,7 @@ impl DrawnPanel {
             }
             (None, None) => None,
         };
-        Ok(Self { picture, marks: frame.marks, provenance: Some(job.provenance()) })
+        Ok(Self { picture, marks: frame.marks, provenance: Some(job.provenance()), notes: frame.notes })
     }
 }
 
@@ -161,11 +174,20 @@ impl<'a> FigureLayout<'a> {
     /// Puts what the panels show on one page, and writes it.
     ///
     /// # Errors
-    /// A picture without colours, and the errors of [`Frame::write`].
+    /// A picture without colours, and the errors of [`Frame::write`](crate::drawing::Frame::write).
     pub fn write_panels(&self, panels: Vec<DrawnPanel>, path: &Path) -> Result<WriteReport, Failure> {
         let provenances: Vec<_> = panels.iter().filter_map(|panel| panel.provenance.clone()).collect();
         let (picture, marks) = self.compose(panels)?;
         write_picture(picture, marks, &self.scene(), figure_provenance(self.figure, &provenances), path)
+    }
+
+    /// Paints what the panels show on one page.
+    ///
+    /// # Errors
+    /// A picture without colours, and the errors of [`Frame::painted`](crate::drawing::Frame::painted).
+    pub fn paint_panels(&self, panels: Vec<DrawnPanel>) -> Result<Picture, Failure> {
+        let (picture, marks) = self.compose(panels)?;
+        paint_picture(picture, &marks, &self.scene())
     }
 
     /// The pixels and the marks of the page. Without pixels of panels there are none.

@@ -3,13 +3,10 @@
 use super::input::{self, SceneOverrides, SetArgs, VerbInput};
 use super::report::{Progress, note};
 use super::{Done, Outcome, Talk, output_path, render::Backend};
-use crate::drawing::Drawing;
 use crate::figure::{DrawnPanel, FigureLayout, PanelPlace};
 use crate::gpu::Gpu;
 use crate::job::RenderTarget;
-use crate::marking::Marking;
 use crate::output::read::{Image, read_image};
-use crate::scene::counts::Counts;
 use crate::scene::file::{self, Overrides};
 use crate::scene::tables::{Camera, Figure, PanelCameras, PanelSource};
 use crate::{Failure, Failures, Format};
@@ -136,11 +133,8 @@ impl PanelInput {
         let progress = Progress::new(talk, format_args!("{}: {table}", figure.display()));
         let job = input.load(RenderTarget::Picture)?;
         input::tell(talk, &job);
-        let mut counts = Counts::default();
-        let marking = Marking::new(&job, &mut counts, &|_| ())?;
-        let drawn = Drawing::on(&job, &marking, gpu, &mut counts)?.frame(0, &|share| progress.hear(share));
-        let (frame, _) = drawn?;
-        frame.notes.iter().for_each(|line| note(talk, format_args!("{table}: {line}")));
-        Ok(DrawnPanel::of(&job, frame, layout)?)
+        let panel = DrawnPanel::draw(&job, layout, gpu, &|share| progress.hear(share))?;
+        panel.notes.iter().for_each(|line| note(talk, format_args!("{table}: {line}")));
+        Ok(panel)
     }
 }

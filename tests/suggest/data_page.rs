@@ -66,7 +66,7 @@ fn every_volume_of_a_scene_is_on_the_page() {
         }
     }
     let (sums, mut scenes) = (checksums(), Vec::new());
-    walk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes"), &mut scenes);
+    walk(&Path::new(env!("CARGO_MANIFEST_DIR")).join("data"), &mut scenes);
     let mut count = 0;
     for scene in scenes {
         let mut files = Vec::new();

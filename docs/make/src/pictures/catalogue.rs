@@ -1,6 +1,9 @@
-//! The list of pictures that are made from scenes.
+//! The list of pictures that are made from scenes and figures.
 
-use drypoint::output::sheet::Layout;
+use crate::files::in_docs;
+use drypoint::scene::file::{Overrides, load_figure};
+use drypoint::scene::tables::{Figure, PanelCameras, PanelSource};
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 /// A picture of a page.
@@ -16,34 +19,41 @@ pub(super) enum Source {
     Scene(PathBuf),
     /// The embedded scene, larger than it is drawn by itself.
     Default(PathBuf),
-    /// Scenes side by side.
-    Sheet { parts: Vec<PathBuf>, layout: Layout },
+    /// A figure file.
+    Figure(PathBuf),
 }
 
 impl Source {
-    /// The files of its scenes.
-    pub(super) fn scenes(&self) -> &[PathBuf] {
+    /// The files of its scenes, with the keys that replace theirs.
+    ///
+    /// # Errors
+    /// The faults of a figure file, and a panel that is no scene, or one with another volume or camera.
+    pub(super) fn scenes(&self) -> Result<Vec<(PathBuf, Overrides)>, String> {
         match self {
-            Self::Scene(path) | Self::Default(path) => std::slice::from_ref(path),
-            Self::Sheet { parts, .. } => parts,
+            Self::Scene(path) | Self::Default(path) => Ok(vec![(path.clone(), Overrides::default())]),
+            Self::Figure(path) => panels(&figure(path)?).map_err(|e| format!("{}: {e}", path.display())),
         }
     }
 }
 
-/// A figure of several scenes: its room, its name, its parts, pixels along the side of a cell, and cells in a row.
-const SHEETS: [(&str, &str, &str, usize, usize); 9] = [
-    ("volumeshop", "figure_1", "ab", 440, 2),
-    ("volumeshop", "figure_5", "abcd", 440, 2),
-    ("volumeshop", "figure_6", "abc", 320, 3),
-    ("volumetric_halos", "figure_5", "abcdef", 320, 3),
-    ("volumetric_halos", "figure_6", "abcd", 330, 2),
-    ("volumetric_halos", "figure_7", "abc", 400, 3),
-    ("volumetric_halos", "figure_8", "ab", 440, 2),
-    ("volumetric_halos", "figure_9", "ab", 440, 2),
-    ("volumetric_halos", "figure_10", "abcd", 340, 2),
-];
+/// Reads a figure file.
+pub(super) fn figure(path: &Path) -> Result<Figure, String> {
+    load_figure(path, &Overrides::default()).map_err(|e| e.to_string())
+}
 
-/// Parts of halos' sheets that are also shown large.
+/// The scenes of panels and insets.
+fn panels(figure: &Figure) -> Result<Vec<(PathBuf, Overrides)>, String> {
+    let scene = |(table, source): (String, &PanelSource)| {
+        let plain = source.volume.is_none() && figure.figure.camera == PanelCameras::Own;
+        let path = source.scene.clone().filter(|_| plain).ok_or(format!("{table} is not a scene as it is"))?;
+        let mut overrides = Overrides::default();
+        source.set.iter().try_for_each(|key| overrides.push_argument(key)).map_err(|e| e.to_string())?;
+        Ok((path, overrides))
+    };
+    figure.sources().into_iter().map(scene).collect()
+}
+
+/// Panels of halos' figures that are also shown large.
 const LARGE_PARTS: [&str; 1] = ["figure_9_b"];
 
 /// Scenes without a picture of their own: they are timed, measured, or drawn as a page to plot.
@@ -61,38 +71,46 @@ const WITHOUT: [&str; 8] = [
 /// Lists every picture, sorted by its path.
 ///
 /// # Errors
-/// The system's failure to read the folder of scenes.
+/// The system's failure to read the folders of scenes and figures, and a figure file that is none.
 pub(super) fn all() -> Result<Vec<DocPicture>, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
-    let mut pictures =
-        vec![DocPicture { file: "pictures/default.png".into(), source: Source::Default(root.join("default.toml")) }];
-    for folder in entries(&root)?.iter().filter(|path| path.is_dir() && !path.ends_with("cost")) {
-        let room = folder.file_name().unwrap_or_default().display().to_string();
-        for scene in entries(folder)?.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml")) {
-            let stem = scene.file_stem().unwrap_or_default().display().to_string();
-            if has_picture(&room, &stem) {
-                pictures.push(DocPicture { file: format!("pictures/{room}/{stem}.png"), source: Source::Scene(scene) });
-            }
+    let data = in_docs("../data").canonicalize().map_err(|e| format!("data: {e}"))?;
+    let default = Source::Default(data.join("scenes/default.toml"));
+    let mut pictures = vec![DocPicture { file: "pictures/default.png".into(), source: default }];
+    let mut panels = Vec::new();
+    for (room, stem, path) in in_rooms(&data.join("figures"))? {
+        let source = Source::Figure(path);
+        for (scene, _) in source.scenes()? {
+            panels.push(scene.canonicalize().map_err(|e| format!("{}: {e}", scene.display()))?);
+        }
+        pictures.push(DocPicture { file: format!("pictures/{room}/{stem}.png"), source });
+    }
+    for (room, stem, scene) in in_rooms(&data.join("scenes"))? {
+        let is_panel = panels.contains(&scene) && !LARGE_PARTS.contains(&&*stem);
+        if !is_panel && has_picture(&room, &stem) {
+            pictures.push(DocPicture { file: format!("pictures/{room}/{stem}.png"), source: Source::Scene(scene) });
         }
     }
-    pictures.extend(SHEETS.map(|(room, figure, parts, cell, columns)| {
-        let parts = parts.chars().map(|part| root.join(room).join(format!("{figure}_{part}.toml"))).collect();
-        let layout = Layout { columns: Some(columns), cell };
-        DocPicture { file: format!("pictures/{room}/{figure}.png"), source: Source::Sheet { parts, layout } }
-    }));
     pictures.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(pictures)
 }
 
-/// Whether a scene has a picture of its own. The parts of Fig. 1 of styles are laid out beside the painting.
+/// Whether a scene that is no panel has a picture of its own. The parts of Fig. 1 of styles are laid out beside the
+/// painting.
 fn has_picture(room: &str, stem: &str) -> bool {
-    let on_a_sheet = match room {
-        "volumetric_halos" => stem.starts_with("figure_") && !LARGE_PARTS.contains(&stem),
-        "volumeshop" => ["figure_1_", "figure_5_", "figure_6_"].iter().any(|sheet| stem.starts_with(sheet)),
-        "style_transfer_functions" => stem.starts_with("figure_1_") || stem.ends_with("_regular"),
-        _ => false,
-    };
-    !on_a_sheet && !WITHOUT.contains(&stem)
+    let is_laid_out =
+        room == "style_transfer_functions" && (stem.starts_with("figure_1_") || stem.ends_with("_regular"));
+    room != "cost" && !is_laid_out && !WITHOUT.contains(&stem)
+}
+
+/// Room, name and path of the files in the folders of a folder.
+fn in_rooms(folder: &Path) -> Result<Vec<(String, String, PathBuf)>, String> {
+    let name = |name: Option<&OsStr>| name.unwrap_or_default().display().to_string();
+    let mut found = Vec::new();
+    for room in entries(folder)?.iter().filter(|path| path.is_dir()) {
+        let files = entries(room)?.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml"));
+        found.extend(files.map(|path| (name(room.file_name()), name(path.file_stem()), path)));
+    }
+    Ok(found)
 }
 
 /// The paths in a folder.
@@ -107,11 +125,9 @@ mod tests {
 
     #[test]
     fn every_exception_is_a_scene() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/scenes");
-        let there: Vec<PathBuf> =
-            entries(&root).unwrap().iter().filter(|p| p.is_dir()).flat_map(|p| entries(p).unwrap()).collect();
+        let there = in_rooms(&in_docs("../data/scenes")).unwrap();
         for name in WITHOUT.iter().chain(&LARGE_PARTS) {
-            assert!(there.iter().any(|path| path.file_stem().is_some_and(|stem| stem == *name)), "{name}");
+            assert!(there.iter().any(|(_, stem, _)| stem == *name), "{name}");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Fingerprints of the scenes from which the pictures of `docs` were made: a picture is up to date if that of its scene is
 //! beside it.
 
-use super::catalogue::DocPicture;
+use super::catalogue::{DocPicture, Source, figure};
 use crate::files::{self, in_docs};
-use drypoint::scene::file::{Overrides, identity, parse};
+use drypoint::scene::file::{figure_identity, identity, parse};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 
@@ -44,14 +44,17 @@ impl Fingerprints {
 }
 
 impl DocPicture {
-    /// The first 16 hexadecimal digits of SHA-256 over the scenes with every default filled in. Comments, the order of keys
-    /// and the place of data do not count.
+    /// The first 16 hexadecimal digits of SHA-256 over the figure and its scenes, with every default filled in. Comments,
+    /// the order of keys and the place of data do not count.
     pub(super) fn fingerprint(&self) -> Result<String, String> {
         let mut hash = Sha256::new();
-        for path in self.source.scenes() {
+        if let Source::Figure(path) = &self.source {
+            hash.update(figure_identity(&figure(path)?));
+        }
+        for (path, overrides) in self.source.scenes()? {
             // Without a look at the disk: the place of data does not count, and they need not be there.
-            let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-            let scene = parse(&text, path, &Overrides::default()).map_err(|e| e.to_string())?;
+            let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+            let scene = parse(&text, &path, &overrides).map_err(|e| e.to_string())?;
             hash.update(identity(&scene));
         }
         Ok(hash.finalize().iter().take(8).map(|byte| format!("{byte:02x}")).collect())

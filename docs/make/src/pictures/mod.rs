@@ -7,14 +7,14 @@ mod of_scene;
 
 use crate::files;
 use catalogue::{DocPicture, Source};
-use drypoint::output::read::Image;
-use drypoint::output::sheet::{Layout, sheet};
-use drypoint::scene::file::{Overrides, load};
+use drypoint::Failures;
+use drypoint::figure::{DrawnPanel, FigureLayout};
+use drypoint::job::Job;
+use drypoint::scene::file::load;
 use drypoint::scene::picture::Picture;
-use drypoint::scene::tables::Scene;
+use drypoint::scene::tables::{Figure, Scene};
 use fingerprints::Fingerprints;
 use of_scene::Encode;
-use std::path::{Path, PathBuf};
 
 /// The most bytes of a picture in `docs`.
 const LARGEST: usize = 600_000;
@@ -50,34 +50,37 @@ pub(crate) fn write() -> Result<(), String> {
 impl DocPicture {
     /// Renders the picture and encodes it.
     fn png(&self) -> Result<Vec<u8>, String> {
+        let mut scenes = Vec::new();
+        for (path, overrides) in self.source.scenes()? {
+            scenes.push(load(&path, &overrides).map_err(|e| e.to_string())?);
+        }
         let (picture, encode) = match &self.source {
-            Source::Scene(path) => of_scene::picture(scene(path)?)?,
-            Source::Default(path) => {
-                let mut scene = scene(path)?;
-                scene.picture.size = DEFAULT_SIZE;
-                of_scene::picture(scene)?
+            Source::Scene(_) => of_scene::picture(scenes.remove(0))?,
+            Source::Default(_) => {
+                scenes[0].picture.size = DEFAULT_SIZE;
+                of_scene::picture(scenes.remove(0))?
             }
-            Source::Sheet { parts, layout } => (contact_sheet(parts, *layout)?, encode::opaque_png as Encode),
+            Source::Figure(path) => {
+                let page = page(&catalogue::figure(path)?, scenes).map_err(|e| e.to_string())?;
+                (page, encode::opaque_png as Encode)
+            }
         };
         let bytes = encode(&picture).map_err(|e| e.to_string())?;
         if bytes.len() > LARGEST {
-            return Err(format!("{} bytes, more than {LARGEST}: make the scene's picture smaller", bytes.len()));
+            return Err(format!("{} bytes, more than {LARGEST}: make scene or figure smaller", bytes.len()));
         }
         Ok(bytes)
     }
 }
 
-/// Reads a scene of a picture.
-fn scene(path: &Path) -> Result<Scene, String> {
-    load(path, &Overrides::default()).map_err(|e| e.to_string())
-}
-
-/// Renders scenes side by side, each with its name.
-fn contact_sheet(parts: &[PathBuf], layout: Layout) -> Result<Picture, String> {
-    let part = |path: &PathBuf| {
-        let name = path.file_stem().unwrap_or_default().display().to_string();
-        Ok((name, Image::from(&of_scene::picture(scene(path)?)?.0)))
+/// Draws the scenes of a figure on its page.
+fn page(figure: &Figure, scenes: Vec<Scene>) -> Result<Picture, Failures> {
+    let sizes: Vec<[usize; 2]> = scenes.iter().map(|scene| scene.picture.size).collect();
+    let layout = FigureLayout::new(figure, &sizes)?;
+    let panel = |(mut scene, place)| {
+        layout.fit(&mut scene, place);
+        Ok(DrawnPanel::draw(&Job::load(scene)?, &layout, None, &|_| ())?)
     };
-    let pictures: Vec<(String, Image)> = parts.iter().map(part).collect::<Result<_, String>>()?;
-    sheet(&pictures, layout).map_err(|e| e.to_string())
+    let panels = scenes.into_iter().zip(layout.places()).map(panel).collect::<Result<Vec<_>, Failures>>()?;
+    Ok(layout.paint_panels(panels)?)
 }
