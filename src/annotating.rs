@@ -19,7 +19,7 @@ use drypoint_scene::tables::{
     AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, ObjectTable, PartName,
 };
 use drypoint_scene::view::View;
-use labels::LabelAnchors;
+use labels::Anchored;
 use legend::{DrawnLegend, NamedRow};
 use lines::Seen;
 pub(crate) use lines::plain;
@@ -37,7 +37,7 @@ pub(crate) struct Annotating<'a> {
     /// The objects where they are in the frame.
     pub(crate) objects: Vec<ObjectTable>,
     /// The places that labels lead to, found in the first frame.
-    anchors: Option<LabelAnchors>,
+    anchors: Option<Vec<Anchored>>,
     /// The labels of the frame before.
     previous: Option<AnnotationLayout>,
 }

@@ -22,15 +22,8 @@ const LOOKS: usize = 160;
 /// The accumulated opacity from which a structure hides what lies behind it. A veil before it has no label.
 const MOST_LIGHT: f64 = 0.5;
 
-/// The labels of a job's frames, and the places that they lead to.
-pub(super) struct LabelAnchors {
-    labels: Vec<Anchored>,
-    /// The box of what is visible of the volume, in index space.
-    visible: [DVec3; 2],
-}
-
 /// A label and the place that it leads to, in world space.
-struct Anchored {
+pub(super) struct Anchored {
     text: String,
     world: DVec3,
     /// The part at whose centre the place is; none: the place stays in the world.
@@ -50,27 +43,28 @@ impl Annotating<'_> {
         if self.tables().labels.is_empty() {
             return Ok(Vec::new());
         }
+        let seen = renderer.map(|renderer| Seen::new(view, renderer));
         if self.anchors.is_none() {
-            let labels = self.anchored(view, renderer, notes)?;
-            let visible = renderer.and_then(Renderer::visible_box);
-            let visible = visible.unwrap_or_else(|| self.job.volume.grid().index_box());
-            self.anchors = Some(LabelAnchors { labels, visible });
+            self.anchors = Some(self.anchored(renderer, seen.as_ref(), notes)?);
         }
         self.follow_parts();
         let table = self.tables().arrangement.clone().unwrap_or_default();
         let pen = self.pen(&table.line, "labels", "labels.pen")?;
         let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
-        let page = self.annotated_page(view, &table, anchors, obstacles(margin));
+        let page = self.annotated_page(view, &table, (anchors, seen.as_ref()), obstacles(margin));
         let arrange = match table.layout {
             LabelLayout::Hull => layout,
             LabelLayout::Columns => columns,
         };
         let found = arrange(&page, self.previous.as_ref());
-        notes.extend(left_out(&found, &anchors.labels));
+        notes.extend(left_out(&found, anchors));
+        if table.layout == LabelLayout::Columns && reaches_over(&found, &page.outline) {
+            notes.push("columns of labels lie over the picture: there is no room beside it".into());
+        }
         // Leader lines with their dots, then text.
         let mut layer = Layer::new(pen);
         let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
-        let shown = found.annotations.iter().zip(&page.annotations).zip(&anchors.labels);
+        let shown = found.annotations.iter().zip(&page.annotations).zip(anchors);
         for ((place, given), label) in shown.filter(|((place, _), _)| place.hidden.is_none()) {
             let PlacedAnnotation { corners, leader, opacity, .. } = *place;
             let mut points = vec![given.anchor, leader[0], leader[1]];
@@ -92,7 +86,7 @@ impl Annotating<'_> {
     /// Moves the places of labels of objects to their centres in the frame.
     fn follow_parts(&mut self) {
         let Self { job, objects, anchors, .. } = self;
-        for label in anchors.iter_mut().flat_map(|anchors| &mut anchors.labels) {
+        for label in anchors.iter_mut().flatten() {
             let corners = label.part.as_ref().and_then(|part| job.corners(objects, part));
             label.world = corners.map_or(label.world, centre);
         }
@@ -103,11 +97,11 @@ impl Annotating<'_> {
         &self,
         view: &View,
         table: &LabelsTable,
-        anchors: &LabelAnchors,
+        (anchors, seen): (&[Anchored], Option<&Seen>),
         obstacles: Vec<[DVec2; 2]>,
     ) -> AnnotatedPage {
         let (size, gap) = (self.mm(table.size), self.mm(table.gap));
-        let annotations = anchors.labels.iter().map(|label| {
+        let annotations = anchors.iter().map(|label| {
             let extent = extent(&label.text, size);
             // A point behind the eye is nowhere on the page, and the label is hidden.
             let anchor = view.point_of(label.world).map_or(DVec2::NAN, DVec2::from);
@@ -119,7 +113,7 @@ impl Annotating<'_> {
         });
         AnnotatedPage {
             annotations: annotations.collect(),
-            outline: widened(&self.on_page(view, &self.around(anchors.visible)), self.mm(table.distance)),
+            outline: widened(&self.around(view, seen), self.mm(table.distance)),
             frame: self.page.frame(),
             obstacles,
             rounds: table.rounds,
@@ -127,31 +121,34 @@ impl Annotating<'_> {
         }
     }
 
-    /// The corners of what labels surround: of the visible box of the volume, of selections, and of boxes that are drawn.
-    fn around(&self, visible: [DVec3; 2]) -> Vec<DVec3> {
-        let selections = self.objects.iter();
-        let selections = selections.filter_map(|object| self.corners_of(&PartName::Selection(object.name.clone())));
+    /// Points of the page whose convex hull labels surround: of what is seen, and of boxes that are drawn. Without rays it is
+    /// the volume's box.
+    fn around(&self, view: &View, seen: Option<&Seen>) -> Vec<DVec2> {
         let boxes = self.tables().boxes.iter().filter(|table| table.show == BoxShown::Always);
-        let boxes = boxes.filter_map(|table| self.corners_of(&table.of));
-        let grid = self.job.volume.grid();
-        grid.corners_of(visible).into_iter().chain(selections.flatten()).chain(boxes.flatten()).collect()
+        let boxes = boxes.filter_map(|table| self.corners_of(&table.of)).flatten();
+        let mut around = self.on_page(view, &boxes.collect::<Vec<_>>());
+        around.extend(seen.iter().flat_map(|seen| &seen.ends).map(|&at| self.page.place(at.into(), view.size)));
+        if around.is_empty() {
+            around = self.on_page(view, &self.job.volume.grid().world_corners());
+        }
+        around
     }
 
     /// The labels of the scene, with the places that they lead to.
     fn anchored(
         &self,
-        view: &View,
         renderer: Option<&Renderer<'_>>,
+        seen: Option<&Seen>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<Anchored>, Failure> {
         let tables = &self.tables().labels;
-        let looks = renderer.filter(|_| tables.iter().any(LabelTable::asks_what_is_seen));
-        let seen = looks.map(|renderer| SeenStructures::new(view, renderer)).unwrap_or_default();
+        let largest = seen.map(|seen| &*seen.largest).unwrap_or_default();
+        let place = |id: u32| largest.iter().find(|(seen, _)| *seen == id).map(|(_, world)| *world);
         let name = |id: u32| name_of_label(self.job, id);
         let mut found = Vec::new();
         for (i, label) in tables.iter().enumerate() {
             if label.from.is_some() {
-                let most = seen.largest.iter().take(label.most);
+                let most = largest.iter().take(label.most);
                 found.extend(most.map(|(id, world)| Anchored { text: name(*id), world: *world, part: None }));
                 continue;
             }
@@ -165,7 +162,7 @@ impl Annotating<'_> {
                 _ => {
                     let id = self.id(label, i)?;
                     let world = match label.anchor {
-                        LabelAnchor::Seen => seen.place(id),
+                        LabelAnchor::Seen => place(id),
                         LabelAnchor::Centroid => {
                             self.labels_of_data().and_then(|(labels, grid)| centroid(labels, grid, id))
                         }
@@ -234,32 +231,42 @@ fn centre(corners: [DVec3; 8]) -> DVec3 {
     corners.iter().sum::<DVec3>() / 8.0
 }
 
-/// The structures of a label volume that are seen, the largest first, with a point on each.
-#[derive(Default)]
-struct SeenStructures {
+/// What is seen in a frame.
+struct Seen {
+    /// The structures of the label volume, the largest first, with a point on each.
     largest: Vec<(u32, DVec3)>,
+    /// The ends of each row of the picture in which something is seen, in pixels.
+    ends: Vec<[f64; 2]>,
 }
 
-impl SeenStructures {
+impl Seen {
     /// Looks along rays on a square grid over the picture.
     fn new(view: &View, renderer: &Renderer<'_>) -> Self {
         let [width, height] = view.size.map(|n| n as f64);
         let step = width.max(height) / LOOKS as f64;
         let [columns, rows] = [width, height].map(|side| ((side / step) as usize).max(1));
         let at = |n: usize, side: f64, steps: usize| (n as f64 + 0.5) * side / steps as f64;
-        let picked: Vec<Option<Picked>> = parallel::map(columns * rows, &|i| {
-            renderer.pick_from(MOST_LIGHT, [at(i % columns, width, columns), at(i / columns, height, rows)])
-        });
+        let point = |i: usize| [at(i % columns, width, columns), at(i / columns, height, rows)];
+        let picked: Vec<Option<Picked>> = parallel::map(columns * rows, &|i| renderer.pick_from(MOST_LIGHT, point(i)));
         let id = |picked: &Option<Picked>| picked.and_then(|picked| picked.label).filter(|id| *id != 0);
         let ids: Vec<Option<u32>> = picked.iter().map(id).collect();
         let regions = inner_points(&ids, columns).into_iter();
         let largest = regions.filter_map(|region| Some((region.id, picked[region.inner]?.world)));
-        Self { largest: largest.collect() }
+        let ends = (0..rows).flat_map(|row| {
+            let mut hits = (row * columns..(row + 1) * columns).filter(|&i| picked[i].is_some());
+            let first = hits.next();
+            first.into_iter().chain(hits.next_back()).map(point)
+        });
+        Self { largest: largest.collect(), ends: ends.collect() }
     }
+}
 
-    fn place(&self, id: u32) -> Option<DVec3> {
-        self.largest.iter().find(|(seen, _)| *seen == id).map(|(_, world)| *world)
-    }
+/// Whether labels reach into the bounding box of an outline.
+fn reaches_over(found: &AnnotationLayout, outline: &[DVec2]) -> bool {
+    let of_x = |of: fn(f64, f64) -> f64, first: f64| outline.iter().map(|p| p.x).fold(first, of);
+    let [left, right] = [of_x(f64::min, f64::INFINITY), of_x(f64::max, f64::NEG_INFINITY)];
+    let mut shown = found.annotations.iter().filter(|place| place.hidden.is_none());
+    shown.any(|place| place.corners[0].x < right && place.corners[1].x > left)
 }
 
 /// The centroid of the voxels of a label, in world space. Returns none if the label has no voxel.

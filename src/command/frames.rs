@@ -13,6 +13,7 @@ use crate::scene::counts::Counts;
 use crate::scene::picture::Picture;
 use crate::scene::tables::Scene;
 use crate::{Failure, Failures, Format};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -177,6 +178,7 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
     // Frames are drawn, timed and written one after another.
     let (mut cpu, mut wall) = (Some(0.0), Vec::new());
     let (mut notes, mut marks) = (Vec::new(), [0, 0]);
+    let mut of_frames: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     let start = Instant::now();
     {
         let progress = Progress::new(talk, "rendering");
@@ -196,7 +198,10 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
                 wall.push(start.elapsed().as_secs_f64());
                 drawn
             };
-            let (frame, own) = timed()?;
+            let (mut frame, own) = timed()?;
+            for line in std::mem::take(&mut frame.notes) {
+                of_frames.entry(line).or_default().push(i);
+            }
             for _ in 1..repeat {
                 timed()?;
             }
@@ -238,7 +243,23 @@ fn draw(job: &Job, files: &FrameFiles, gpu: Option<&Gpu>, repeat: usize, talk: T
         _ => note(talk, files.summary(frames)),
     }
     notes.iter().for_each(|line| note(talk, line));
+    for (line, of) in of_frames {
+        match frames {
+            1 => note(talk, line),
+            _ => note(talk, format_args!("{}: {line}", numbers(&of))),
+        }
+    }
     Ok(DrawReport { counts, times: FrameTimes::new(wall, cpu) })
+}
+
+/// The numbers of some frames, in order, as text: "frame 3", or "frames 0 to 4, 7".
+fn numbers(frames: &[usize]) -> String {
+    let runs = frames.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] => format!("{first} to {last}"),
+        one => one.iter().map(usize::to_string).collect(),
+    });
+    let what = if frames.len() == 1 { "frame" } else { "frames" };
+    format!("{what} {}", runs.collect::<Vec<_>>().join(", "))
 }
 
 #[cfg(test)]
@@ -249,6 +270,12 @@ mod tests {
     fn files(name: &str, rest: &str) -> Result<FrameFiles, Failure> {
         let text = format!("drypoint = 1\n[volume]\nfile = \"a.nrrd\"\n{rest}");
         FrameFiles::named(Path::new(name), &parse(&text, Path::new("a.toml"), &Overrides::default()).unwrap())
+    }
+
+    #[test]
+    fn runs_of_frames_are_told_by_their_ends() {
+        assert_eq!(numbers(&[3]), "frame 3");
+        assert_eq!(numbers(&[0, 1, 2, 5, 7, 8]), "frames 0 to 2, 5, 7 to 8");
     }
 
     #[test]

@@ -48,12 +48,6 @@ impl BrickOccupancy {
         Self { nodes, reach: (longest * BRICK) as f64 }
     }
 
-    /// The box around all bricks of the tree, in index space; none without a brick.
-    pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
-        let [x, y, z] = self.nodes.first()?.ends;
-        Some([DVec3::new(x[0], y[0], z[0]), DVec3::new(x[1], y[1], z[1])])
-    }
-
     /// Bytes in memory.
     pub fn bytes(&self) -> usize {
         size_of_val(self.nodes.as_slice())

@@ -22,7 +22,6 @@ use drypoint_scene::backdrop::Backdrop;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::fragments::Fragments;
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::inputs::Inputs;
 use drypoint_scene::phantom::Phantom;
 use drypoint_scene::picture::Picture;
@@ -286,15 +285,6 @@ impl<'a> Renderer<'a> {
         match &self.ready {
             Ready::F64(p) => line_point(p, point, depth, rgb),
             Ready::F32(p) => line_point(p, point, depth, rgb),
-        }
-    }
-
-    /// Returns the box of `[volume]` in which something can be seen, in index space, to whole bricks. Returns none if
-    /// empty space is not skipped, or if nothing can be seen.
-    pub fn visible_box(&self) -> Option<[DVec3; 2]> {
-        match &self.ready {
-            Ready::F64(p) => p.skip.as_ref()?.bounds(),
-            Ready::F32(p) => p.skip.as_ref()?.bounds(),
         }
     }
 

@@ -106,22 +106,15 @@ impl Annotations {
         all
     }
 
-    /// Whether the volume can hide some of it, or tells where labels lead to.
+    /// Whether the volume can hide some of it, or tells where labels stand.
     pub fn asks_rays(&self) -> bool {
         self.boxes.iter().any(|table| table.show == BoxShown::Always && table.occluded)
             || self.arrows.iter().any(|table| table.occluded)
-            || self.labels.iter().any(|label| label.pixel.is_some() || label.asks_what_is_seen())
+            || !self.labels.is_empty()
     }
 
     /// Whether labels name structures of the label volume.
     pub fn asks_labels(&self) -> bool {
         self.labels.iter().any(|label| label.from.is_some() || label.label.is_some())
-    }
-}
-
-impl LabelTable {
-    /// Whether its anchor is a point that is seen of a structure.
-    pub fn asks_what_is_seen(&self) -> bool {
-        self.from.is_some() || self.label.is_some() && self.anchor == LabelAnchor::Seen
     }
 }
