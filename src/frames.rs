@@ -47,12 +47,12 @@ pub trait Frames {
     /// The scene's plan has no lines inside the volume.
     fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure>;
 
-    /// Takes the camera and the lights of another shot of the scene ([`Shot::seen_from`]). The reference also takes the size
-    /// and the rays of a coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)), and prepares nothing anew.
+    /// Takes the camera and the lights of another shot of the scene ([`Shot::seen_from`]), and the size and the rays of a
+    /// coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)). Nothing is prepared anew.
     ///
     /// # Errors
-    /// The camera is too far away. On a graphics card, whose shader is compiled for them, the size or the rays differ. On the
-    /// reference, the size differs before a picture.
+    /// The camera is too far away, or the size differs before a picture. On a graphics card halos and funnels have one
+    /// size, too.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
 
     /// Takes a variant of the job's scene, if that saves work, and removes lines inside the picture. Returns whether it did;

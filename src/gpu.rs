@@ -148,6 +148,8 @@ pub struct GpuFrames {
     grid: Grid,
     /// The keys of the scene, for errors.
     given: Given,
+    /// The size of the following frames.
+    drawn: [usize; 2],
     /// The texture of a viewer, if a frame has been shown.
     shown: Option<wgpu::Texture>,
 }
@@ -171,8 +173,8 @@ impl GpuFrames {
 
     fn of_job(on_gpu: GpuJob<'_>) -> Result<Self, Failure> {
         let (renderer, GpuJob { job, gpu, uploaded }) = (on_gpu.renderer()?, on_gpu);
-        let (grid, given) = (job.volume.grid().clone(), job.scene.given.clone());
-        Ok(Self { gpu: gpu.clone(), uploaded, renderer, grid, given, shown: None })
+        let (grid, given, drawn) = (job.volume.grid().clone(), job.scene.given.clone(), uploaded.shot.view.size);
+        Ok(Self { gpu: gpu.clone(), uploaded, renderer, grid, given, drawn, shown: None })
     }
 
     /// Takes another scene for the following frames, for example after the user has moved a clip plane. Lines inside
@@ -204,8 +206,7 @@ impl GpuFrames {
             changed.map_err(|error| failure(&error, &scene.given))?;
             self.uploaded = renewed;
         }
-        let size = self.uploaded.shot.view.size.map(|n| n as u32);
-        self.shown = self.shown.take().filter(|texture| [texture.width(), texture.height()] == size);
+        self.drawn = self.uploaded.shot.view.size;
         (self.grid, self.given) = (job.volume.grid().clone(), scene.given.clone());
         Ok(())
     }
@@ -241,12 +242,16 @@ impl Frames for GpuFrames {
     }
 
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure> {
-        let compiled = |shot: &Shot| (shot.view.size, shot.rays_across, shot.refine_above.is_some());
-        if compiled(shot) != compiled(&self.uploaded.shot) {
-            let what = "frames on a graphics card have one size, and pixels of equal rays";
+        let size = |shot: &Shot| (shot.view.size, shot.rays_across);
+        let refines = |shot: &Shot| shot.refine_above.is_some();
+        let old = &self.uploaded.shot;
+        if size(shot) != size(old) && !self.renderer.takes_sizes() || refines(shot) && !refines(old) {
+            let what = "frames with halos, funnels or a picture behind them have one size on a graphics card";
             return Err(Failure::new(what, "--backend", "prepare frames of a scene of that size"));
         }
-        self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))
+        self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))?;
+        self.drawn = shot.view.size;
+        Ok(())
     }
 
     fn change_to(&mut self, job: &Job, variant: &SceneVariant) -> Result<bool, Failure> {
@@ -267,12 +272,11 @@ impl Frames for GpuFrames {
     }
 
     fn show(&mut self) -> Result<Option<f64>, Failure> {
-        let texture = match self.shown.take() {
+        let size = self.drawn.map(|n| n as u32);
+        let shown = self.shown.take().filter(|texture| [texture.width(), texture.height()] == size);
+        let texture = match shown {
             Some(texture) => texture,
-            None => {
-                let texture = self.gpu.viewer_texture(self.uploaded.shot.view.size);
-                texture.map_err(|error| self.failure(&error))?
-            }
+            None => self.gpu.viewer_texture(self.drawn).map_err(|error| self.failure(&error))?,
         };
         let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
         self.shown = Some(texture);

@@ -53,6 +53,11 @@ impl ParamBlock {
         other.fields.iter().for_each(|(name, value)| self.set(name, *value));
     }
 
+    /// The place of a number; none if the block does not have it.
+    pub(crate) fn place(&self, name: &str) -> Option<usize> {
+        self.fields.iter().position(|field| field.0 == name)
+    }
+
     /// The names of the numbers.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().map(|(name, _)| name.as_str())

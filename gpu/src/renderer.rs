@@ -14,7 +14,7 @@ use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
 use crate::volumetric_halos::planes::{HaloPlanes, corners};
-use crate::{CardInputs, Gpu, GpuError, Precision, UploadedVolume, compose, volumeshop};
+use crate::{CardInputs, Gpu, GpuError, Precision, UploadedVolume, compose, ray, volumeshop};
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
@@ -160,7 +160,7 @@ impl CardRenderer {
         let text = shader.text(self.precision);
         let stays = text == self.text
             && layers == self.layers
-            && shot.view.size == self.size
+            && (shot.view.size == self.size || self.takes_sizes())
             && shader.binds_as(&self.shader)
             && inputs.has_lines == self.lines.is_some()
             && FunnelPasses::fit(self.funnels.as_ref(), shot)
@@ -183,11 +183,30 @@ impl CardRenderer {
         }
         (self.shader, self.scales, self.objects) = (shader, scales, objects);
         self.asked.clone_from(&shot.layers);
+        self.resize(shot)
+    }
+
+    /// Whether pictures of other sizes and other rays of pixels need no other pipelines. Images of halos and of funnels have
+    /// one size, and so has a picture behind the volume.
+    pub fn takes_sizes(&self) -> bool {
+        let has_pixels = self.shader.data.iter().any(|(binding, ..)| *binding == ray::BACKGROUND);
+        matches!(self.rays, Rays::Alone(_)) && self.funnels.is_none() && !has_pixels
+    }
+
+    /// Takes the size and the rays of a shot, with buffers of their own if the size differs.
+    fn resize(&mut self, shot: &Shot) -> Result<(), GpuError> {
+        if shot.view.size != self.size {
+            let refines = self.picture.before.is_some();
+            let bytes_a_row = self.picture.bytes_a_row / self.size[0] as u64 * shot.view.size[0] as u64;
+            self.picture = PictureBuffers::new(&self.gpu, refines, bytes_a_row, shot.view.size[1])?;
+            self.size = shot.view.size;
+        }
+        self.shader.block.update(&ray::size(shot));
         Ok(())
     }
 
-    /// Takes the camera and the lights of another shot for the following frames. Nothing else may differ between the
-    /// shots.
+    /// Takes the camera and the lights of another shot for the following frames, and its size and rays if the renderer
+    /// [takes](Self::takes_sizes) them. Nothing else may differ between the shots.
     ///
     /// # Errors
     /// There are more sample planes than the shader can count.
@@ -209,7 +228,7 @@ impl CardRenderer {
             Rays::Alone(passes) => passes.turn(shot, grid),
             Rays::Together(planes) => planes.turn(shot, grid),
         }
-        Ok(())
+        self.resize(shot)
     }
 
     /// Puts lines for the current camera inside the following frames, or removes them ([HATCH-14] d).
@@ -287,9 +306,12 @@ impl CardRenderer {
         self.draw_rows(0..self.size[1], None)?;
         let presentation = match self.presentation.take() {
             Some(presentation) => presentation,
-            None => Presentation::new(&self.gpu, self.precision, self.size, &self.layers)?,
+            None => {
+                let size = self.shader.block.place(ray::WIDTH).ok_or(GpuError::Material)?;
+                Presentation::new(&self.gpu, self.precision, size, &self.layers)?
+            }
         };
-        presentation.run(&self.gpu, &self.picture.out, target)?;
+        presentation.run(&self.gpu, [&self.picture.out, &self.params], self.size, target)?;
         self.presentation = Some(presentation);
         Ok(())
     }

@@ -136,7 +136,7 @@ fn a_changed_scene_is_drawn_as_if_it_were_new() {
         ("", "[shading]", "[shading]\nlight = [1, 0, 0]\nspecular = 0.1", true),
         ("", "#203040", "#ffffff", true),
         ("", "[shading]", "[shading]\nmodel = \"toon\"", false),
-        ("", "size = [37, 30]", "size = [20, 41]", false),
+        ("", "size = [37, 30]", "size = [20, 41]", true),
         ("", "samples = 1", "samples = \"auto\"", false),
         ("", "[shading]", "[sampling]\nkernel = \"bspline\"\n[shading]", false),
         (table, "direction = [1, 2, 3]", "direction = [3, -2, 1]", true),
@@ -178,15 +178,44 @@ fn a_changed_scene_is_drawn_as_if_it_were_new() {
     }
 }
 
-/// A card's frames have one size and one number of rays: the shot of a coarse frame is refused, and changes nothing.
+/// A coarse frame is that of the scene with its size and one ray a pixel, bit for bit, and so is the exact one after it. No
+/// pipeline is compiled.
 #[test]
-fn a_coarse_frame_is_refused() {
+fn a_coarse_frame_is_the_scene_in_its_size() {
     let Some(gpu) = gpu() else { return };
-    let job = job(SCENE);
+    let object =
+        "[[object]]\nname = \"part\"\nvalue = [[150, 0], [180, 1]]\nmove = [0, 2, 0]\nghosting = 0.5\n[object.ghost]\n";
+    for (samples, tables) in [("1", ""), ("2", "[surface]\niso = 150\n"), ("\"auto\"", object), ("\"auto\"", "")] {
+        let text = format!("{SCENE}{tables}").replace("samples = 1", &format!("samples = {samples}"));
+        let small = text.replace("[67, 50]", "[23, 17]").replace(&format!("samples = {samples}"), "samples = 1");
+        let [exact, small] = [&text, &small].map(|text| job(text));
+        let draw = |frames: &mut GpuFrames| {
+            frames.show().unwrap_or_else(|failure| panic!("{failure}"));
+            let shown = texels(&gpu, frames.shown().unwrap());
+            (frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0, shown)
+        };
+        let fresh = [&exact, &small].map(|job| draw(&mut GpuFrames::new(job, &gpu).unwrap()));
+        let mut frames = GpuFrames::new(&exact, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
+        frames.show().unwrap();
+        let compiled = gpu.pipelines();
+        let shots = [exact.shot().unwrap(), exact.coarse_shot(NonZeroUsize::new(3).unwrap()).unwrap()];
+        for (shot, fresh) in [1, 0, 1, 0].map(|i| (&shots[i], &fresh[i])) {
+            frames.turn(shot).unwrap_or_else(|failure| panic!("{failure}"));
+            assert!(draw(&mut frames) == *fresh, "{samples}: {tables}");
+        }
+        assert_eq!(gpu.pipelines(), compiled, "{samples}: {tables}");
+    }
+}
+
+/// Images of halos have one size: the shot of a coarse frame is refused, and changes nothing.
+#[test]
+fn a_coarse_frame_with_halos_is_refused() {
+    let Some(gpu) = gpu() else { return };
+    let job = job(&format!("{SCENE}[[halo]]\nseed.value = [[150, 0], [180, 1]]\n"));
     let mut frames = GpuFrames::new(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
     let whole = frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
     let failure = frames.turn(&job.coarse_shot(NonZeroUsize::new(2).unwrap()).unwrap()).unwrap_err().to_string();
-    assert!(failure.contains("frames on a graphics card have one size"), "{failure}");
+    assert!(failure.contains("have one size on a graphics card"), "{failure}");
     assert_eq!(frames.frame(&|_| ()).unwrap().0, whole);
 }
 

@@ -482,7 +482,7 @@ fn every_pair_of_effects_has_a_valid_shader() {
     let mut modules = modules();
     for precision in [Precision::Single, Precision::Double] {
         let of_funnels = crate::volumeshop::funnel::text_of_maps(precision, [16, 12]);
-        for shader in [crate::ray::present::text(precision, [16, 12], 5, 1), of_funnels] {
+        for shader in [crate::ray::present::text(precision, 3, 5, 1), of_funnels] {
             validate(&shader).unwrap_or_else(|error| panic!("{error}"));
             modules.retain(|(_, module)| !shader.contains(module));
         }

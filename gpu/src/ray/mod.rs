@@ -206,13 +206,26 @@ pub(crate) fn add_brick_sizes(shader: &mut Shader, bricks: &Bricks) {
     shader.constant("BRICK", Constant::Int(BRICK as i64));
 }
 
+/// The binding of a picture behind the volume.
+pub(crate) const BACKGROUND: u32 = 4;
+
+/// The name of the picture's width among the scalars; its height follows.
+pub(crate) const WIDTH: &str = "picture_width";
+
+/// The size of a picture, and the rays of its pixels.
+pub(crate) fn size(shot: &Shot) -> ParamBlock {
+    let mut block = ParamBlock::default();
+    let [width, height] = shot.view.size.map(|n| n as f64);
+    block.number(WIDTH, width);
+    block.number("picture_height", height);
+    block.number("rays_across", shot.rays_across as f64);
+    block
+}
+
 /// Adds pixels and their background.
 pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<'_>) {
-    let [width, height] = shot.view.size;
     shader.add(&[module!("pixel_sum")]);
-    shader.constant("WIDTH", Constant::Int(width as i64));
-    shader.constant("HEIGHT", Constant::Int(height as i64));
-    shader.constant("RAYS_ACROSS", Constant::Int(shot.rays_across as i64));
+    shader.block.append(&size(shot), "");
     if let Some(contrast) = shot.refine_above {
         shader.add(&[NUMBER, ELEMENTARY, COLOR, module!("refinement")]);
         shader.block.number("contrast", contrast);
@@ -228,7 +241,7 @@ pub(crate) fn add_pixels(shader: &mut Shader, shot: &Shot, background: Backdrop<
         Backdrop::Pixels(pixels) => {
             shader.add(&[module!("background_pixels")]);
             let data = Data::Reals(pixels.iter().flatten().copied().collect());
-            return shader.bind(4, "the background", data);
+            return shader.bind(BACKGROUND, "the background", data);
         }
     };
     shader.add(&[module!("background_color")]);

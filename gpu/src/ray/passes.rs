@@ -26,6 +26,8 @@ pub(crate) struct RayPasses {
     refinement: Option<Pass>,
     size: [usize; 2],
     rays_across: usize,
+    /// Whether pixels at edges get further rays.
+    refines: bool,
     /// About how many samples a row of pixels has with one ray for each pixel.
     samples_a_row: f64,
     is_beauty_alone: bool,
@@ -47,6 +49,7 @@ impl RayPasses {
             refinement: shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?,
             size: shot.view.size,
             rays_across: shot.rays_across,
+            refines: false,
             samples_a_row: 0.0,
             is_beauty_alone: layers == [LayerKind::Beauty],
         };
@@ -59,9 +62,9 @@ impl RayPasses {
         self.refinement.is_some() == shot.refine_above.is_some()
     }
 
-    /// Takes the camera and the rays of another shot.
+    /// Takes the camera, the size and the rays of another shot. Without the pass for edges no pixel is refined.
     pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
-        self.rays_across = shot.rays_across;
+        (self.size, self.rays_across, self.refines) = (shot.view.size, shot.rays_across, shot.refine_above.is_some());
         self.samples_a_row = self.size[0] as f64 * shot.lattice.planes(&shot.view, grid).max(1.0);
     }
 
@@ -79,7 +82,7 @@ impl RayPasses {
         let around = canvas.picture.rows_around(&rows, height);
         block.set("top_row", around.start as f64);
         let draw = (&self.draw, around.clone(), self.rays_across);
-        let refine = self.refinement.as_ref().map(|pass| (pass, rows.clone(), REFINED_ACROSS));
+        let refine = self.refinement.as_ref().filter(|_| self.refines).map(|pass| (pass, rows.clone(), REFINED_ACROSS));
         let passes = 1 + usize::from(refine.is_some());
         for (number, (pass, pass_rows, across)) in std::iter::once(draw).chain(refine).enumerate() {
             let group = canvas.group(&pass.layout, number > 0, further)?;

@@ -24,9 +24,9 @@ var<private> through_lines: real;
 
 fn begin_lines(pixel: vec2<i32>, part: i32, across: i32) {
     // The ray of the lines in whose part of the pixel this ray lies.
-    let within = (2 * vec2(part % across, part / across) + 1) * RAYS_ACROSS / (2 * across);
-    let ray = pixel * RAYS_ACROSS + within;
-    let i = ray.y * WIDTH * RAYS_ACROSS + ray.x;
+    let within = (2 * vec2(part % across, part / across) + 1) * rays_across() / (2 * across);
+    let ray = pixel * rays_across() + within;
+    let i = ray.y * picture_size().x * rays_across() + ray.x;
     next_line = i32(line_starts[i]);
     end_line = i32(line_starts[i + 1]);
     through_lines = 1.0;

@@ -7,22 +7,32 @@
 // Whether the pixel is drawn once more: layers of one ray stay as they are.
 var<private> is_refined: bool;
 
+// Pixels of the picture, across and down.
+fn picture_size() -> vec2<i32> {
+    return vec2(i32(params.picture_width), i32(params.picture_height));
+}
+
+// n of the n x n rays of a pixel.
+fn rays_across() -> i32 {
+    return i32(params.rays_across);
+}
+
 // The centre of a part of a pixel, in pixels from the middle of the picture, to the right and up.
 fn point_of(pixel: vec2<i32>, part: i32, across: i32) -> vec2<real> {
-    let x = real(2 * pixel.x - WIDTH) * 0.5 + (real(part % across) + 0.5) / real(across);
-    let y = real(2 * pixel.y - HEIGHT) * 0.5 + (real(part / across) + 0.5) / real(across);
+    let x = real(2 * pixel.x - picture_size().x) * 0.5 + (real(part % across) + 0.5) / real(across);
+    let y = real(2 * pixel.y - picture_size().y) * 0.5 + (real(part / across) + 0.5) / real(across);
     return vec2<real>(x, -y);
 }
 
 // The place of a pixel's numbers.
 fn place_of(pixel: vec2<i32>) -> i32 {
-    return ((pixel.y - i32(params.top_row)) * WIDTH + pixel.x) * CHANNELS;
+    return ((pixel.y - i32(params.top_row)) * picture_size().x + pixel.x) * CHANNELS;
 }
 
 // The rays of a pixel, n side by side.
 fn draw_pixel(pixel: vec2<i32>, n: i32) {
     let out = place_of(pixel);
-    let behind = background_at(pixel.y * WIDTH + pixel.x);
+    let behind = background_at(pixel.y * picture_size().x + pixel.x);
     is_unfinished = false;
     // A beauty alone is drawn part by part: drivers end shaders that run long. What came before stands in the picture.
     let first = i32(params.first_part);
@@ -54,7 +64,7 @@ fn draw_pixel(pixel: vec2<i32>, n: i32) {
 @compute @workgroup_size(8, 8)
 fn draw(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy) + vec2(0, i32(params.first_row));
-    if (pixel.x < WIDTH && pixel.y < i32(params.end_row)) {
-        draw_pixel(pixel, RAYS_ACROSS);
+    if (pixel.x < picture_size().x && pixel.y < i32(params.end_row)) {
+        draw_pixel(pixel, rays_across());
     }
 }

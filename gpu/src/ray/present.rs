@@ -14,17 +14,11 @@ const GROUP: u32 = 8;
 pub(crate) struct Presentation {
     pipeline: wgpu::ComputePipeline,
     layout: wgpu::BindGroupLayout,
-    size: [usize; 2],
 }
 
 impl Presentation {
-    /// Prepares the pass for pictures of a size and with layers.
-    pub(crate) fn new(
-        gpu: &Gpu,
-        precision: Precision,
-        size: [usize; 2],
-        layers: &[LayerKind],
-    ) -> Result<Self, GpuError> {
+    /// Prepares the pass for pictures with layers, of any size. `size` is the place of width and height among the scalars.
+    pub(crate) fn new(gpu: &Gpu, precision: Precision, size: usize, layers: &[LayerKind]) -> Result<Self, GpuError> {
         let missing = GpuError::Missing { what: "a picture without a beauty in a viewer", key: "picture.layers" };
         let beauty = layers.iter().position(|&layer| layer == LayerKind::Beauty).ok_or(missing)?;
         let channels = |layers: &[LayerKind]| layers.iter().map(|layer| layer.channels().len()).sum::<usize>();
@@ -39,28 +33,34 @@ impl Presentation {
             },
             count: None,
         };
-        let entries = [list_entry(0, true), target];
+        let entries = [list_entry(0, true), target, list_entry(2, true)];
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("present"), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
         let pipeline = pipeline(gpu, text, "present", &[&layout])?;
-        Ok(Self { pipeline, layout, size })
+        Ok(Self { pipeline, layout })
     }
 
-    /// Writes the numbers of a picture into a texture.
-    pub(crate) fn run(&self, gpu: &Gpu, picture: &wgpu::Buffer, target: &wgpu::TextureView) -> Result<(), GpuError> {
+    /// Writes the numbers of a picture of `size` pixels into a texture. `numbers` are the scalars of its shader.
+    pub(crate) fn run(
+        &self,
+        gpu: &Gpu,
+        [picture, numbers]: [&wgpu::Buffer; 2],
+        size: [usize; 2],
+        target: &wgpu::TextureView,
+    ) -> Result<(), GpuError> {
         gpu.attempt("the picture", || {
             let target = wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(target) };
             let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
                 label: Some("present"),
                 layout: &self.layout,
-                entries: &[entry(0, picture), target],
+                entries: &[entry(0, picture), target, entry(2, numbers)],
             });
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             {
                 let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
                 run.set_pipeline(&self.pipeline);
                 run.set_bind_group(0, &group, &[]);
-                let [x, y] = self.size.map(|n| (n as u32).div_ceil(GROUP));
+                let [x, y] = size.map(|n| (n as u32).div_ceil(GROUP));
                 run.dispatch_workgroups(x, y, 1);
             }
             gpu.queue.submit([encoder.finish()]);
@@ -69,10 +69,10 @@ impl Presentation {
 }
 
 /// The shader for pixels of `channels` channels. The beauty begins at channel `first`.
-pub(crate) fn text(precision: Precision, [width, height]: [usize; 2], channels: usize, first: usize) -> String {
+pub(crate) fn text(precision: Precision, size: usize, channels: usize, first: usize) -> String {
     let number = number::of(precision);
     format!(
-        "{}\nconst WIDTH = {width};\nconst HEIGHT = {height};\nconst CHANNELS = {channels};\nconst BEAUTY = {first};\n{}",
+        "{}\nconst SIZE = {size};\nconst CHANNELS = {channels};\nconst BEAUTY = {first};\n{}",
         number.text, PRESENT.text
     )
 }

@@ -16,8 +16,8 @@ fn displayed(pixel: vec2<i32>) -> vec4<real> {
 // Whether a pixel parts from one of its eight neighbours by more than the contrast in a channel.
 fn is_at_edge(pixel: vec2<i32>) -> bool {
     let own = displayed(pixel);
-    for (var y = max(pixel.y - 1, 0); y <= min(pixel.y + 1, HEIGHT - 1); y++) {
-        for (var x = max(pixel.x - 1, 0); x <= min(pixel.x + 1, WIDTH - 1); x++) {
+    for (var y = max(pixel.y - 1, 0); y <= min(pixel.y + 1, picture_size().y - 1); y++) {
+        for (var x = max(pixel.x - 1, 0); x <= min(pixel.x + 1, picture_size().x - 1); x++) {
             let apart = abs(displayed(vec2(x, y)) - own);
             if (any(apart > vec4<real>(params.contrast))) {
                 return true;
@@ -31,7 +31,7 @@ fn is_at_edge(pixel: vec2<i32>) -> bool {
 @compute @workgroup_size(8, 8)
 fn refine(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy) + vec2(0, i32(params.first_row));
-    if (pixel.x >= WIDTH || pixel.y >= i32(params.end_row)) {
+    if (pixel.x >= picture_size().x || pixel.y >= i32(params.end_row)) {
         return;
     }
     if (!is_at_edge(pixel)) {

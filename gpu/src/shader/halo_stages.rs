@@ -56,7 +56,7 @@ impl HaloStages {
 
     /// An expression for the intensity of a halo at a pixel: the mean over its rays.
     pub(crate) fn intensity(halo: usize) -> String {
-        format!("halo_sum_{halo} / real(RAYS_ACROSS * RAYS_ACROSS)")
+        format!("halo_sum_{halo} / real(rays_across() * rays_across())")
     }
 
     /// The text of the functions.

@@ -15,7 +15,7 @@ fn note_sample(sample: Sample) {
 // Aims the rays of the objects at a place of the images.
 fn aim_image(at: vec2<i32>) {
     let pixel = image_pixel(at);
-    begin_part(pixel.xy, pixel.z, RAYS_ACROSS);
+    begin_part(pixel.xy, pixel.z, rays_across());
 }
 
 fn samples_that_seed(ray: Ray) -> vec2<i32> {

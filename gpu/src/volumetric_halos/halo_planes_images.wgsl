@@ -42,7 +42,7 @@ fn group_ends(k: i32, every: i32) -> bool {
 
 // The pixel that a ray of the images goes through, and the part of it. Rays of the guard band lie before 0 or beyond the last.
 fn image_pixel(at: vec2<i32>) -> vec3<i32> {
-    let n = RAYS_ACROSS;
+    let n = rays_across();
     // Whole numbers are divided where they are positive.
     let shifted = at - GUARD + GUARD * n;
     let part = shifted % n;
@@ -52,5 +52,5 @@ fn image_pixel(at: vec2<i32>) -> vec3<i32> {
 // The point of the picture that it goes through.
 fn image_point(at: vec2<i32>) -> vec2<real> {
     let pixel = image_pixel(at);
-    return point_of(pixel.xy, pixel.z, RAYS_ACROSS);
+    return point_of(pixel.xy, pixel.z, rays_across());
 }

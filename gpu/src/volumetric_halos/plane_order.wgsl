@@ -126,11 +126,11 @@ fn leave_planes(own: RayOnPlanes) {
 @compute @workgroup_size(8, 8)
 fn halo_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
     let pixel = vec2<i32>(id.xy);
-    if (pixel.x >= WIDTH || pixel.y >= HEIGHT) {
+    if (any(pixel >= picture_size())) {
         return;
     }
-    let n = RAYS_ACROSS;
-    let behind = background_at(pixel.y * WIDTH + pixel.x);
+    let n = rays_across();
+    let behind = background_at(pixel.y * picture_size().x + pixel.x);
     var sum = vec4<real>();
     for (var part = 0; part < n * n; part++) {
         let at = pixel * n + vec2(part % n, part / n);
@@ -141,5 +141,5 @@ fn halo_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
         sum_intensities(number);
         end_ray(part);
     }
-    write_channels((pixel.y * WIDTH + pixel.x) * CHANNELS, sum / real(n * n));
+    write_channels((pixel.y * picture_size().x + pixel.x) * CHANNELS, sum / real(n * n));
 }

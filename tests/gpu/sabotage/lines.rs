@@ -18,7 +18,7 @@ fn faults_of_lines_are_noticed() {
             "let rgb = in_blend_space(vec3<real>(line.r, line.g, line.b));",
             "let rgb = vec3<real>(line.g, line.r, line.b);",
         ),
-        (&text, "let ray = pixel * RAYS_ACROSS + within;", "let ray = pixel * RAYS_ACROSS + within.yx;"),
+        (&text, "let ray = pixel * rays_across() + within;", "let ray = pixel * rays_across() + within.yx;"),
         (&text, "front = meet_line(front);", "next_line++;"),
         (&covering, "through_lines *= 1.0 - line.opacity;", ""),
         (&surface, "!(fragments[end_line - 1].t < hit)", "!(fragments[end_line - 1].t < hit + 2.0)"),
