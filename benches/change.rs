@@ -1,4 +1,5 @@
-//! Times to prepare frames on a graphics card: frames that are made anew, and frames that take a changed scene.
+//! Times to prepare frames on a graphics card: frames that are made anew, and frames that take a changed scene. Then times
+//! of frames from another camera, coarse and exact.
 //! 256³ voxels, styles with contours, a clip plane.
 //!
 //! `cargo bench --bench change --features gpu`
@@ -6,8 +7,10 @@
 mod specimen;
 
 use drypoint::cost::median;
+use drypoint::frames::Frames;
 use drypoint::gpu::{Gpu, GpuFrames};
 use specimen::{COLOURS, STYLES, job};
+use std::num::NonZeroUsize;
 use std::time::Instant;
 
 /// Turns of each change.
@@ -51,6 +54,16 @@ fn main() -> Result<(), String> {
         }
         let pipelines = (gpu.pipelines() - compiled) as f64 / (2 * TURNS) as f64;
         println!("| {name} | {:.1} | {pipelines} |", median(&times));
+    }
+    println!("\n| n | frame | ms | pipelines |\n|--:|---|--:|--:|");
+    for n in [16, 8, 4, 1].map(|n| NonZeroUsize::new(n).unwrap_or(NonZeroUsize::MIN)) {
+        let (mut times, compiled, shot) = (Vec::new(), gpu.pipelines(), first.coarse_shot(n).map_err(failed)?);
+        for _ in 0..TURNS {
+            let mut shown = || frames.turn(&shot).and_then(|()| frames.show()).map(drop).map_err(failed);
+            times.push(timed(&mut shown)?);
+        }
+        let [width, height] = shot.view.size;
+        println!("| {n} | {width}×{height} | {:.1} | {} |", median(&times), gpu.pipelines() - compiled);
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use std::path::PathBuf;
 
 /// Compare a graphics card with the reference, stage by stage and within derived bounds; exit code 1 when a bound is
-/// exceeded, 3 when nothing is proven: no bound is known for the scene, and the card has no f64.
+/// exceeded or a stage parts in f64, 3 when nothing is proven of f32: no bound is known for the scene.
 #[derive(Debug, Args)]
 pub(super) struct ValidateArgs {
     /// Scene (.toml) or volume

@@ -1,7 +1,7 @@
 //! Medians and quartiles of times ([COST-3]).
 
 /// Returns the quantile of a share, linear between neighbours; NaN without a value.
-fn quantile(values: &[f64], share: f64) -> f64 {
+pub(crate) fn quantile(values: &[f64], share: f64) -> f64 {
     let mut values = values.to_vec();
     values.sort_by(f64::total_cmp);
     let Some(last) = values.len().checked_sub(1) else { return f64::NAN };

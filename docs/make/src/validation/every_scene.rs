@@ -3,7 +3,7 @@
 use drypoint::gpu::Gpu;
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};
-use drypoint::validate::{Validation, Verdict, validate};
+use drypoint::validate::{Validation, validate};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -90,7 +90,7 @@ fn outcome(file: &Path, gpu: &Gpu) -> Option<Outcome> {
         return Some(Outcome::MarksAlone);
     }
     Some(match validate(&job, gpu) {
-        Ok(found) if found.is_wrong() || found.verdict() == Verdict::NotProven => Outcome::Fails(found),
+        Ok(found) if found.is_wrong() || found.bounded.is_none() && !found.has_double() => Outcome::Fails(found),
         Ok(found) => Outcome::Same(found),
         Err(failure) => Outcome::Refused(failure.what),
     })

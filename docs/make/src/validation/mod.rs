@@ -93,7 +93,7 @@ const INTRODUCTION: &str = "<!-- Written by `cargo run --release -p drypoint-doc
 
 `drypoint render SCENE --backend gpu` draws a picture on a graphics card, in f32.
 `drypoint validate SCENE` compares it with the reference and ends with 1 if a bound is exceeded, if a stage parts in f64, or, where bounds are known, if more than a tenth of the pixels have none.
-It ends with 3 and the verdict \"not proven\" if nothing could have failed: no bound is known for the scene, and the card has no f64.
+It ends with 3 and the verdict \"not proven\" if no bound is known for the scene: then nothing is known of f32, also where every stage agrees in f64.
 Pixels of `samples = \"auto\"` are compared with one ray each.
 Both need a build with `--features gpu`.
 
