@@ -349,8 +349,10 @@ fn remedy(error: &GpuError) -> &'static str {
         GpuError::NoFilter { .. } => "write --backend gpu: the shader interpolates then",
         GpuError::TooManyPlanes { .. } => "take a larger sampling.step, or move the eye closer",
         GpuError::Lost { .. } | GpuError::Refused { .. } => "update the driver, or leave --backend out",
-        GpuError::Missing { .. } | GpuError::NoDouble { .. } | GpuError::NoLines | GpuError::Material => {
-            "leave --backend out: the CPU renders it"
-        }
+        GpuError::TooManyLists { .. }
+        | GpuError::Missing { .. }
+        | GpuError::NoDouble { .. }
+        | GpuError::NoLines
+        | GpuError::Material => "leave --backend out: the CPU renders it",
     }
 }

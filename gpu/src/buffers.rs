@@ -61,6 +61,13 @@ pub(crate) fn check_bytes(gpu: &Gpu, what: &'static str, bytes: u64) -> Result<(
     if bytes > most { Err(refused()) } else { Ok(()) }
 }
 
+/// Checks that a shader can have this many lists.
+pub(crate) fn check_lists(gpu: &Gpu, lists: usize) -> Result<(), GpuError> {
+    let most = gpu.device.limits().max_storage_buffers_per_shader_stage;
+    let refused = || GpuError::TooManyLists { lists, most, adapter: gpu.name().to_owned() };
+    if lists > most as usize { Err(refused()) } else { Ok(()) }
+}
+
 /// A buffer with contents.
 pub(crate) fn buffer(
     gpu: &Gpu,

@@ -73,6 +73,18 @@ impl Gpu {
     /// # Errors
     /// There is no adapter, or the adapter gives no device.
     pub fn new() -> Result<Self, GpuError> {
+        Self::limited(WANTED, |limits| limits)
+    }
+
+    /// The same adapter with a device of no other features, and of the limits that a function makes of the adapter's. So it
+    /// is like a weaker adapter.
+    ///
+    /// # Errors
+    /// See [`Gpu::new`].
+    pub fn limited(
+        features: wgpu::Features,
+        limits: impl FnOnce(wgpu::Limits) -> wgpu::Limits,
+    ) -> Result<Self, GpuError> {
         let instance = wgpu::Instance::default();
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -82,8 +94,8 @@ impl Gpu {
         let info = adapter.get_info();
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("drypoint"),
-            required_features: adapter.features() & WANTED,
-            required_limits: adapter.limits(),
+            required_features: adapter.features() & features,
+            required_limits: limits(adapter.limits()),
             ..Default::default()
         };
         let request = pollster::block_on(adapter.request_device(&descriptor));

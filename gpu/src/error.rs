@@ -48,6 +48,16 @@ pub enum GpuError {
         /// The adapter's name.
         adapter: String,
     },
+    /// A picture needs more lists than a shader can read and write.
+    #[error("the picture has {lists} lists for a shader; {adapter} takes at most {most}")]
+    TooManyLists {
+        /// The number of lists.
+        lists: usize,
+        /// The largest number of lists.
+        most: u32,
+        /// The adapter's name.
+        adapter: String,
+    },
     /// Memory of the adapter ran out.
     #[error("the memory of {adapter} does not hold {what}")]
     OutOfMemory {

@@ -1,6 +1,6 @@
 //! A shot prepared for drawing any number of frames.
 
-use crate::buffers::{buffer, list_entry, read};
+use crate::buffers::{buffer, check_lists, list_entry, read};
 use crate::canvas::Canvas;
 use crate::clock::Clock;
 use crate::compose::objects::PlacesOfObjects;
@@ -13,7 +13,7 @@ use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
-use crate::volumetric_halos::planes::{HaloPlanes, corners};
+use crate::volumetric_halos::planes::{self, HaloPlanes, corners};
 use crate::{CardInputs, Gpu, GpuError, Precision, UploadedVolume, compose, ray, volumeshop};
 use drypoint_scene::fragments::Fragments;
 use drypoint_scene::glam::DVec3;
@@ -105,13 +105,17 @@ impl CardRenderer {
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let objects = PlacesOfObjects::new(shot, inputs)?;
         let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
+        let of_data = shader.data.iter().filter(|(_, _, data)| data.is_list()).count();
         let rays = if shot.halos.list.is_empty() {
             let of_lines = lines.iter().flat_map(|_| [LINE_STARTS, LINES]);
             let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
+            // Scalars, the picture, and the picture before refinement.
+            check_lists(gpu, of_data + 2 + usize::from(shot.refine_above.is_some()) + further.len())?;
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
             let others = others_in(inputs, &objects);
             let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
+            check_lists(gpu, of_data + planes::LISTS + usize::from(further.is_some()))?;
             let planes = HaloPlanes::new(gpu, shot, (grid, others), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))
         };

@@ -34,6 +34,11 @@ pub(crate) enum Data {
 }
 
 impl Data {
+    /// Whether a shader reads the data as a list.
+    pub(crate) fn is_list(&self) -> bool {
+        matches!(self, Self::Lighting(_) | Self::Reals(_) | Self::Words(_) | Self::Texels(_))
+    }
+
     /// Whether the data are the same in every frame.
     pub(crate) fn is_constant(&self) -> bool {
         !matches!(self, Self::Lighting(_))

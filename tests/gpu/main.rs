@@ -8,6 +8,7 @@ mod field;
 mod formulas;
 mod halos;
 mod lines;
+mod machines;
 mod meshes;
 mod objects;
 mod points;

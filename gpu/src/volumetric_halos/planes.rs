@@ -21,6 +21,10 @@ const PIXELS_AT_ONCE: u64 = 1 << 26;
 /// Bytes of a group of planes as a shader reads it.
 const GROUP_BYTES: u64 = 24;
 
+/// Lists of a pass over images, beside the scene's: scalars and the picture, groups of planes, states of rays and tiles, and
+/// three images.
+pub(crate) const LISTS: usize = 2 + 8 + 3;
+
 /// The name of the list of groups in errors.
 const GROUP_LIST: &str = "the groups of planes";
 
