@@ -5,6 +5,7 @@ mod labels;
 mod legend;
 mod lines;
 mod margin;
+mod room;
 
 use crate::Failure;
 use crate::job::{Job, RenderTarget, pen_named};
@@ -20,9 +21,10 @@ use drypoint_scene::tables::{
 };
 use drypoint_scene::view::View;
 use labels::Anchored;
-use legend::{DrawnLegend, NamedRow};
+use legend::NamedRow;
 use lines::Seen;
 pub(crate) use lines::plain;
+use room::MarginRoom;
 
 /// The most points of one line.
 const MOST_POINTS: usize = 20_000;
@@ -90,11 +92,10 @@ impl<'a> Annotating<'a> {
     pub(crate) fn draw(&mut self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<AnnotationFrame, Failure> {
         let mut layers = self.conventions(view, renderer)?;
         let mut notes = Vec::new();
-        let margin = self.margin(view)?;
-        let legend = self.legend(view, &mut notes)?;
-        let outline = legend.as_ref().map(DrawnLegend::outline);
-        let taken: Vec<Layer> = margin.iter().cloned().chain(outline).collect();
-        layers.extend(self.labels(view, renderer, &taken, &mut notes)?);
+        let mut room = MarginRoom::new(&self.page);
+        let legend = self.legend(view, &mut room, &mut notes)?;
+        let margin = self.margin(view, &mut room, &mut notes)?;
+        layers.extend(self.labels(view, renderer, room.taken, &mut notes)?);
         layers.extend(margin);
         let (layer, overlays) = legend.map(|legend| (legend.layer, legend.spheres)).unzip();
         layers.extend(layer);

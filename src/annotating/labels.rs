@@ -31,13 +31,13 @@ pub(super) struct Anchored {
 }
 
 impl Annotating<'_> {
-    /// The labels of a frame, beside what stands in the margin. Places are found in the first frame and stay in the world.
+    /// The labels of a frame, which cover no obstacle. Places are found in the first frame and stay in the world.
     /// Labels of objects stay at their centres.
     pub(super) fn labels(
         &mut self,
         view: &View,
         renderer: Option<&Renderer<'_>>,
-        margin: &[Layer],
+        obstacles: Vec<[DVec2; 2]>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<Layer>, Failure> {
         if self.tables().labels.is_empty() {
@@ -51,7 +51,7 @@ impl Annotating<'_> {
         let table = self.tables().arrangement.clone().unwrap_or_default();
         let pen = self.pen(&table.line, "labels", "labels.pen")?;
         let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
-        let page = self.annotated_page(view, &table, (anchors, seen.as_ref()), obstacles(margin));
+        let page = self.annotated_page(view, &table, (anchors, seen.as_ref()), obstacles);
         let arrange = match table.layout {
             LabelLayout::Hull => layout,
             LabelLayout::Columns => columns,
@@ -196,23 +196,6 @@ impl Annotating<'_> {
         let labels = self.job.label_volume()?;
         Some((labels, labels.grid_in(self.job.volume.anatomy())))
     }
-}
-
-/// The rectangles around lines and text, which labels do not cover.
-fn obstacles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
-    let mut all = Vec::new();
-    for layer in layers {
-        all.extend(layer.lines.iter().map(|line| {
-            let ends = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-            let half = layer.pen.width / 2.0;
-            line.vertices.iter().fold(ends, |[lo, hi], v| [lo.min(v.at - half), hi.max(v.at + half)])
-        }));
-        all.extend(layer.texts.iter().map(|text| {
-            let extent = extent(&text.characters, text.size);
-            [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
-        }));
-    }
-    all
 }
 
 /// Points whose convex hull lies a distance around that of others.

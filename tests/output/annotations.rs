@@ -4,10 +4,11 @@ use crate::outside::run;
 use drypoint::drawing::{Drawing, Frame};
 use drypoint::job::Job;
 use drypoint::marking::Marking;
-use drypoint::output::text::font::extent;
+use drypoint::output::text::font::{cap_height, extent};
 use drypoint::reference::style_transfer_functions::SphereMap;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::glam::DVec2;
 use drypoint::scene::picture::Picture;
 use drypoint::scene::source::Disk;
 use drypoint::scene::style::Theme;
@@ -240,5 +241,116 @@ fn colours_of_a_legend_are_areas() {
     assert_eq!([legend.areas.len(), legend.lines.len()], [0, 2]);
     assert!(plotted.notes[0].starts_with("the legend has circles"), "{:?}", plotted.notes);
     let (_, small) = drawn(&LEGEND.replace("2 mm", "3 mm"));
-    assert!(small.notes[0].starts_with("the legend is larger than the picture"), "{:?}", small.notes);
+    // A legend without room is left out whole.
+    assert!(small.notes[0].starts_with("the legend is left out: it has no room"), "{:?}", small.notes);
+    assert!(texts(&small).is_empty());
+}
+
+/// Each thing of the margin, its texts and lines as rectangles. Lines of a triad begin at one point, and count together.
+fn extents(frame: &Frame) -> Vec<(String, [DVec2; 2])> {
+    let mut found = Vec::new();
+    for layer in frame.marks.iter().flat_map(|marks| &marks.layers) {
+        found.extend(layer.texts.iter().map(|text| {
+            let high = DVec2::new(0.0, cap_height(text.size));
+            let wide = DVec2::new(extent(&text.characters, text.size).advance, 0.0);
+            (text.characters.clone(), [text.at - high, text.at + wide])
+        }));
+        let vertices = layer.lines.iter().flat_map(|line| &line.vertices);
+        let ends = vertices.fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[lo, hi], vertex| {
+            [lo.min(vertex.at - vertex.radius), hi.max(vertex.at + vertex.radius)]
+        });
+        found.extend((!layer.lines.is_empty()).then(|| (layer.pen.name.clone(), ends)));
+    }
+    found
+}
+
+/// A page of 100 mm × 80 mm whose height is 90 units of the world, with a margin.
+fn with_margin(corners: [&str; 3], legend: &str, bar: &str) -> String {
+    let head = SCENE[..SCENE.find("[[object]]").unwrap()].replace("dpi = 60", "dpi = 10");
+    let [a, b, c] = corners;
+    format!(
+        "{head}[legend]\ncorner = \"{a}\"\n{legend}[scale_bar]\ncorner = \"{b}\"\n{bar}[orientation]\ntriad = true\ncorner = \"{c}\"\n"
+    )
+}
+
+/// Whatever stands in which corner, nothing lies on another thing or leaves the picture.
+#[test]
+fn things_in_the_margin_lie_apart() {
+    let corners = ["top-left", "top-right", "bottom-left", "bottom-right"];
+    let mut left_out = 0;
+    for i in 0..64 {
+        let corners = [0, 1, 2].map(|digit| corners[i >> (2 * digit) & 3]);
+        for legend in ["", "size = \"6 mm\"\n", "size = \"3 mm\"\nnames = [\"the skin and the fat below it\"]\n"] {
+            let frame = drawn(&with_margin(corners, legend, "size = \"4 mm\"\n")).1;
+            let found = extents(&frame);
+            for (k, (a, [lo, hi])) in found.iter().enumerate() {
+                assert!(lo.cmpge(DVec2::ZERO).all() && hi.cmple(DVec2::new(100.0, 80.0)).all(), "{a} {corners:?}");
+                for (b, [low, high]) in &found[..k] {
+                    let apart = !(lo.cmplt(*high).all() && low.cmplt(*hi).all());
+                    // A triad's letters lie beside its axes.
+                    assert!(apart || b == "orientation" || a == "orientation", "{a} lies on {b}: {corners:?} {legend}");
+                }
+            }
+            // A row, a bar with its text, four letters, and a triad.
+            let missing = frame.notes.len();
+            left_out += missing;
+            assert!(missing > 0 || found.len() >= 2 + 2 + 4 + 4, "{found:?}");
+        }
+    }
+    assert!((1..64).contains(&left_out), "{left_out}");
+}
+
+/// A scale bar has exactly the length that its text says, or there is none and a note tells so.
+#[test]
+fn a_scale_bar_has_its_length_or_is_left_out() {
+    let long = format!("unit = \"{}\"\n", "µ".repeat(60));
+    let bars = [
+        ("", 1),
+        ("length = 80\n", 1),
+        ("length = 104\n", 1),
+        ("length = 109\n", 0),
+        ("length = 1000\n", 0),
+        ("length = 1e300\n", 0),
+        ("length = 1e-5\n", 0),
+        ("length = 5\nwidth = \"6 mm\"\n", 0),
+        (&long, 0),
+    ];
+    for (bar, expected) in bars {
+        let orthographic = with_margin(["top-left", "bottom-left", "top-right"], "", bar);
+        let perspective = orthographic.replace("\"orthographic\"\nheight = 90", "\"perspective\"");
+        assert_ne!(orthographic, perspective);
+        for text in [orthographic, perspective] {
+            let (job, frame) = drawn(&text);
+            let view = job.view().unwrap();
+            let said = texts(&frame)
+                .into_iter()
+                .find_map(|text| text.split(' ').next()?.parse::<f64>().ok().filter(|_| text.contains("mm")));
+            let layers = frame.marks.iter().flat_map(|marks| &marks.layers);
+            let drawn: Vec<f64> = layers
+                .filter(|layer| layer.pen.name == "scale bar")
+                .flat_map(|layer| &layer.lines)
+                .map(|line| line.vertices[1].at.x - line.vertices[0].at.x + 2.0 * line.vertices[0].radius)
+                .collect();
+            let notes = frame.notes.iter().filter(|note| note.starts_with("the scale bar is left out: it ")).count();
+            assert_eq!((drawn.len(), notes), (said.iter().count(), 1 - said.iter().count()), "{bar} {:?}", frame.notes);
+            assert!(view.perspective || drawn.len() == expected, "{bar} {:?}", frame.notes);
+            // The length across the view axis at the target, on a page 100 mm wide.
+            let middle = job.volume.grid().centre();
+            for (mm, length) in drawn.iter().zip(said) {
+                let [from, to] = [-0.5, 0.5].map(|way| view.point_of(middle + view.right * (way * length)).unwrap()[0]);
+                assert!((mm - (to - from) * 100.0 / view.size[0] as f64).abs() < 0.01, "{bar}: {mm}");
+            }
+        }
+    }
+    // A narrow picture has no room for the words on perspective. A target behind the eye has no scale.
+    let scene = |eye: &str, unit: &str| {
+        format!(
+            "drypoint = 1\n[volume]\nphantom = {{ name = \"specimen\", size = 16 }}\n[picture]\nsize = [100, 100]\ndpi = 100\n\
+            [camera]\n{eye}[scale_bar]\nsize = \"1.5 mm\"\nlength = 5\nunit = \"{unit}\"\n"
+        )
+    };
+    assert_eq!(texts(&drawn(&scene("", "mm")).1), ["5 mm at the target"]);
+    assert_eq!(texts(&drawn(&scene("", "thousandths of a metre")).1), ["5 thousandths of a metre"]);
+    let behind = drawn(&scene("eye = [8, -9, 8]\ndirection = [0, -1, 0]\ntarget = [8, 8, 8]\n", "mm")).1;
+    assert!(behind.notes[0].starts_with("the scale bar is left out: the camera's target"), "{:?}", behind.notes);
 }
