@@ -58,9 +58,6 @@ impl Annotating<'_> {
         };
         let found = arrange(&page, self.previous.as_ref());
         notes.extend(left_out(&found, anchors));
-        if table.layout == LabelLayout::Columns && reaches_over(&found, &page.outline) {
-            notes.push("columns of labels lie over the picture: there is no room beside it".into());
-        }
         // Leader lines with their dots, then text.
         let mut layer = Layer::new(pen);
         let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
@@ -244,14 +241,6 @@ impl Seen {
     }
 }
 
-/// Whether labels reach into the bounding box of an outline.
-fn reaches_over(found: &AnnotationLayout, outline: &[DVec2]) -> bool {
-    let of_x = |of: fn(f64, f64) -> f64, first: f64| outline.iter().map(|p| p.x).fold(first, of);
-    let [left, right] = [of_x(f64::min, f64::INFINITY), of_x(f64::max, f64::NEG_INFINITY)];
-    let mut shown = found.annotations.iter().filter(|place| place.hidden.is_none());
-    shown.any(|place| place.corners[0].x < right && place.corners[1].x > left)
-}
-
 /// The centroid of the voxels of a label, in world space. Returns none if the label has no voxel.
 fn centroid(labels: &LabelVolume, grid: Grid, id: u32) -> Option<DVec3> {
     let [nx, ny, nz] = grid.dims();
@@ -274,7 +263,7 @@ fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
             Hidden::Overlap(other) => format!("it would overlap {:?}", labels.get(other)?.text),
             Hidden::Crossing(other) => format!("its leader line would cross that of {:?}", labels.get(other)?.text),
             Hidden::OutsideFrame => "there is no room for it in the picture".into(),
-            Hidden::NoRoom => "nearer labels leave no room for it".into(),
+            Hidden::NoRoom => "the columns beside the structure have no room for it".into(),
             Hidden::OutOfRange => "the picture's lengths are too large or too small".into(),
             Hidden::Invalid => "what it names is not before the eye".into(),
         };
