@@ -57,7 +57,7 @@ impl Annotating<'_> {
             LabelLayout::Columns => columns,
         };
         let found = arrange(&page, self.previous.as_ref());
-        notes.extend(left_out(&found, anchors));
+        notes.extend(left_out(&found, &page, anchors));
         // Leader lines with their dots, then text.
         let mut layer = Layer::new(pen);
         let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
@@ -118,12 +118,14 @@ impl Annotating<'_> {
         }
     }
 
-    /// Points of the page whose convex hull labels surround: of what is seen, and of boxes that are drawn. Without rays it is
-    /// the volume's box.
+    /// Points of the page whose convex hull labels surround: of what is seen, of boxes that are drawn, and of the outlines
+    /// of fans. Without rays and outlines it is the volume's box.
     fn around(&self, view: &View, seen: Option<&Seen>) -> Vec<DVec2> {
         let boxes = self.tables().boxes.iter().filter(|table| table.show == BoxShown::Always);
         let boxes = boxes.filter_map(|table| self.corners_of(&table.of)).flatten();
         let mut around = self.on_page(view, &boxes.collect::<Vec<_>>());
+        let fans = self.tables().fans.iter().filter_map(|table| self.fan_outlines(view, table));
+        around.extend(fans.flat_map(|fan| fan.outlines).flatten());
         around.extend(seen.iter().flat_map(|seen| &seen.ends).map(|&at| self.page.place(at.into(), view.size)));
         if around.is_empty() {
             around = self.on_page(view, &self.job.volume.grid().world_corners());
@@ -257,11 +259,14 @@ fn centroid(labels: &LabelVolume, grid: Grid, id: u32) -> Option<DVec3> {
 }
 
 /// The labels of a layout that are left out, a sentence each.
-fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
-    let sentence = |(place, label): (&PlacedAnnotation, &Anchored)| {
+fn left_out(found: &AnnotationLayout, page: &AnnotatedPage, labels: &[Anchored]) -> Vec<String> {
+    let [low, high] = page.frame;
+    let sentence = |((place, given), label): ((&PlacedAnnotation, &Annotation), &Anchored)| {
+        let is_outside = given.anchor.clamp(low, high) != given.anchor;
         let why = match place.hidden? {
             Hidden::Overlap(other) => format!("it would overlap {:?}", labels.get(other)?.text),
             Hidden::Crossing(other) => format!("its leader line would cross that of {:?}", labels.get(other)?.text),
+            Hidden::OutsideFrame if is_outside => "what it names is outside the picture".into(),
             Hidden::OutsideFrame => "there is no room for it in the picture".into(),
             Hidden::NoRoom => "the columns beside the structure have no room for it".into(),
             Hidden::OutOfRange => "the picture's lengths are too large or too small".into(),
@@ -269,5 +274,5 @@ fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
         };
         Some(format!("the label {:?} is left out: {why}", label.text))
     };
-    found.annotations.iter().zip(labels).filter_map(sentence).collect()
+    found.annotations.iter().zip(&page.annotations).zip(labels).filter_map(sentence).collect()
 }

@@ -354,3 +354,84 @@ fn a_scale_bar_has_its_length_or_is_left_out() {
     let behind = drawn(&scene("eye = [8, -9, 8]\ndirection = [0, -1, 0]\ntarget = [8, 8, 8]\n", "mm")).1;
     assert!(behind.notes[0].starts_with("the scale bar is left out: the camera's target"), "{:?}", behind.notes);
 }
+
+/// The texts of a layer, with the rectangles around their lines.
+fn boxes_of_texts<'a>(frame: &'a Frame, layer: &'a str) -> impl Iterator<Item = (&'a str, [DVec2; 2])> {
+    let layers = frame.marks.iter().flat_map(|marks| &marks.layers).filter(move |found| found.pen.name == layer);
+    layers.flat_map(|layer| &layer.texts).map(|text| {
+        let size = extent(&text.characters, text.size);
+        let corners = [text.at - DVec2::new(0.0, size.ascent), text.at + DVec2::new(size.advance, size.descent)];
+        (text.characters.as_str(), corners)
+    })
+}
+
+/// Labels lie on no line of an arrow or a fan.
+#[test]
+fn labels_keep_off_arrows_and_fans() {
+    let labels = (0..5).map(|i| format!("[[label]]\ntext = \"part {i}\"\nat = [{}, 14, {}]\n", 9 + 4 * i, 18 + 2 * i));
+    let head = "drypoint = 1\n[volume]\nphantom = { name = \"specimen\", size = 32 }\n[picture]\nsize = [200, 200]\ndpi = 55\n\
+        [camera]\nprojection = \"orthographic\"\nheight = 90\ndirection = [0, 1, 0]\n[[object]]\nname = \"o\"\n\
+        value = [[100, 0], [110, 1]]\nmove = [7, 27, 0]\n";
+    let labels: String = labels.collect();
+    let mut shown = 0;
+    for layout in ["hull", "columns"] {
+        for ways in [
+            "[[arrow]]\nbend = 2.2\noccluded = false\n",
+            "[[fan]]\n",
+            "[[fan]]\nshape = \"circle\"\n[[arrow]]\nbend = 1\n",
+        ] {
+            let frame = drawn(&format!("{head}{ways}[labels]\nlayout = \"{layout}\"\n{labels}")).1;
+            let marks = frame.marks.as_ref().unwrap();
+            let lines = marks.layers.iter().filter(|layer| ["arrow", "fan"].contains(&&*layer.pen.name));
+            let lines: Vec<_> = lines.flat_map(|layer| &layer.lines).collect();
+            assert!(!lines.is_empty());
+            for (text, [low, high]) in boxes_of_texts(&frame, "labels") {
+                shown += 1;
+                for pair in lines.iter().flat_map(|line| line.vertices.windows(2)) {
+                    let is_on = (0..=100).map(|i| pair[0].at.lerp(pair[1].at, f64::from(i) / 100.0));
+                    let mut is_on = is_on.filter(|at| at.cmpgt(low).all() && at.cmplt(high).all());
+                    assert!(is_on.next().is_none(), "{text} {layout} {ways}");
+                }
+            }
+        }
+    }
+    assert!(shown > 15, "{shown}");
+}
+
+/// An arrow that cannot be drawn is told. Only one without any way is silent.
+#[test]
+fn arrows_that_are_not_drawn_are_told() {
+    let arrow = |keys: &str| {
+        let scene = "drypoint = 1\n[volume]\nphantom = { name = \"specimen\", size = 16 }\n[picture]\nsize = [60, 60]\n\
+            [camera]\neye = [8, -9, 8]\ndirection = [0, 1, 0]\nfov = 60\nnear = 1\n";
+        drawn(&format!("{scene}[[arrow]]\noccluded = false\n{keys}")).1
+    };
+    for (keys, what) in [
+        ("from = [8, -30, 8]\nto = [8, 8, 8]\n", "one of its ends is not before the eye"),
+        ("from = [8, 3, 8]\nto = [8, 8, 8]\nbend = 0\n", "it is seen along its direction"),
+        ("from = [4, 3, 8]\nto = [8, 8, 8]\nbend = 1e308\n", "it is too long for the picture"),
+        ("from = [-1e300, 3, 8]\nto = [1e300, 8, 8]\n", "it is too long for the picture"),
+        ("from = [8, 8, 8]\nto = [8, 8, 8]\n", ""),
+        ("from = [4, 8, 8]\nto = [12, 8, 8]\n", ""),
+    ] {
+        let notes = arrow(keys).notes;
+        let expected = format!("the arrow 0 is left out: {what}");
+        assert!(if what.is_empty() { notes.is_empty() } else { notes[0].starts_with(&expected) }, "{keys} {notes:?}");
+    }
+    // A head is at most half as long as its arrow.
+    let frame = arrow("from = [6, 8, 8]\nto = [10, 8, 8]\nhead = \"5000 mm\"\n");
+    let layer = &frame.marks.as_ref().unwrap().layers[0];
+    let x = |points: Vec<DVec2>| {
+        points.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], p| [lo.min(p.x), hi.max(p.x)])
+    };
+    let [from, neck] = x(layer.lines[0].vertices.iter().map(|vertex| vertex.at).collect());
+    let [back, tip] = x(layer.areas[0].outlines[0].clone());
+    assert!((tip - back - (tip - from) / 2.0).abs() < 0.01 && back < neck && neck < tip, "{from} {neck} {back} {tip}");
+}
+
+/// A label of a point beyond the picture's edge says so.
+#[test]
+fn a_label_outside_the_picture_is_told() {
+    let notes = drawn(&SCENE.replace("at = [4, 4, 4]", "at = [4000, 4, 4]")).1.notes;
+    assert_eq!(notes, ["the label \"first & last\" is left out: what it names is outside the picture"]);
+}
