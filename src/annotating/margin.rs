@@ -155,5 +155,7 @@ fn centred(characters: String, middle: DVec2, size: f64) -> (Text, [DVec2; 2]) {
     // Capitals are about 0.7 of the size high.
     let half = DVec2::new(extent(&characters, size).advance / 2.0, 0.35 * size);
     let at = middle + DVec2::new(-half.x, half.y);
-    (Text { characters, at, size, opacity: 1.0 }, [middle - half, middle + half])
+    // Small letters reach below the baseline.
+    let below = DVec2::new(half.x, half.y + 0.25 * size);
+    (Text { characters, at, size, opacity: 1.0 }, [middle - half, middle + below])
 }
