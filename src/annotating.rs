@@ -5,6 +5,7 @@ mod labels;
 mod legend;
 mod lines;
 mod margin;
+mod room;
 
 use crate::Failure;
 use crate::job::{Job, RenderTarget, pen_named};
@@ -16,13 +17,15 @@ use drypoint_scene::glam::{DVec2, DVec3};
 use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen};
 use drypoint_scene::picture::Overlay;
 use drypoint_scene::tables::{
-    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, FanTable, Length, LineStyle, ObjectTable, PartName,
+    AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, BoxTable, FanTable, Length, LineStyle, ObjectTable,
+    PartName,
 };
 use drypoint_scene::view::View;
 use labels::Anchored;
-use legend::{DrawnLegend, NamedRow};
+use legend::NamedRow;
 use lines::Seen;
 pub(crate) use lines::plain;
+use room::MarginRoom;
 
 /// The most points of one line.
 const MOST_POINTS: usize = 20_000;
@@ -88,13 +91,17 @@ impl<'a> Annotating<'a> {
     /// # Errors
     /// A pen that the scene does not have, or a label whose structure does not exist.
     pub(crate) fn draw(&mut self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<AnnotationFrame, Failure> {
-        let mut layers = self.conventions(view, renderer)?;
         let mut notes = Vec::new();
-        let margin = self.margin(view)?;
-        let legend = self.legend(view, &mut notes)?;
-        let outline = legend.as_ref().map(DrawnLegend::outline);
-        let taken: Vec<Layer> = margin.iter().cloned().chain(outline).collect();
-        layers.extend(self.labels(view, renderer, &taken, &mut notes)?);
+        let mut layers = self.boxes(view, renderer)?;
+        let ways = self.ways(view, renderer, &mut notes)?;
+        let mut room = MarginRoom::new(&self.page);
+        let legend = self.legend(view, &mut room, &mut notes)?;
+        let margin = self.margin(view, &mut room, &mut notes)?;
+        let mut ways = Marks { page: self.page, layers: ways };
+        ways.settle();
+        let obstacles = room.taken.into_iter().chain(ways.layers.iter().flat_map(lines::rectangles)).collect();
+        layers.extend(ways.layers);
+        layers.extend(self.labels(view, renderer, obstacles, &mut notes)?);
         layers.extend(margin);
         let (layer, overlays) = legend.map(|legend| (legend.layer, legend.spheres)).unzip();
         layers.extend(layer);
@@ -127,11 +134,11 @@ impl<'a> Annotating<'a> {
         self.tables.asks_rays()
     }
 
-    /// Boxes, fans and arrows.
-    fn conventions(&self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<Vec<Layer>, Failure> {
-        let tables = self.tables();
+    /// Boxes of parts.
+    fn boxes(&self, view: &View, renderer: Option<&Renderer<'_>>) -> Result<Vec<Layer>, Failure> {
         let mut layers = Vec::new();
-        for (i, table) in tables.boxes.iter().enumerate().filter(|(_, table)| table.show == BoxShown::Always) {
+        let shown = |(_, table): &(usize, &BoxTable)| table.show == BoxShown::Always;
+        for (i, table) in self.tables().boxes.iter().enumerate().filter(shown) {
             let Some(corners) = self.corners_of(&table.of) else { continue };
             let pen = self.pen(&table.line, "box", &format!("box[{i}].pen"))?;
             let seen = self.seen(view, renderer.filter(|_| table.occluded), &pen);
@@ -140,22 +147,37 @@ impl<'a> Annotating<'a> {
                 .flat_map(|edge| seen.line(&edge_points(view, edge, MOST_POINTS), lines::Course::Straight));
             layers.push(Layer { lines: lines.collect(), ..Layer::new(pen) });
         }
+        Ok(layers)
+    }
+
+    /// Fans and arrows, which lead from one place to another.
+    fn ways(
+        &self,
+        view: &View,
+        renderer: Option<&Renderer<'_>>,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<Layer>, Failure> {
+        let tables = self.tables();
+        let mut layers = Vec::new();
         for (i, table) in tables.fans.iter().enumerate() {
             layers.extend(self.fan(view, table, i)?);
         }
         for (i, table) in tables.arrows.iter().enumerate() {
-            layers.extend(self.arrow(view, renderer.filter(|_| table.occluded), table, i)?);
+            layers.extend(self.arrow(view, renderer.filter(|_| table.occluded), table, (i, notes))?);
         }
         Ok(layers)
     }
 
+    /// The outlines of a fan on the page, in mm. Returns none if an end is not before the eye.
+    fn fan_outlines(&self, view: &View, table: &FanTable) -> Option<Fan> {
+        let ends = [(&table.from, false), (&table.to, true)].map(|(end, is_to)| self.end(end, is_to));
+        let [from, to] = ends.map(|end| end.map(|end| self.on_page(view, &self.corners(&end))));
+        Fan::new(table.shape, [&from?, &to?])
+    }
+
     /// A fan: its area, then its outlines.
     fn fan(&self, view: &View, table: &FanTable, i: usize) -> Result<Vec<Layer>, Failure> {
-        let ends = [(&table.from, false), (&table.to, true)].map(|(end, is_to)| self.end(end, is_to));
-        let [Some(from), Some(to)] = ends.map(|end| end.map(|end| self.on_page(view, &self.corners(&end)))) else {
-            return Ok(Vec::new());
-        };
-        let Some(fan) = Fan::new(table.shape, [&from, &to]) else { return Ok(Vec::new()) };
+        let Some(fan) = self.fan_outlines(view, table) else { return Ok(Vec::new()) };
         let pen = self.pen(&table.line, "fan", &format!("fan[{i}].pen"))?;
         let width = pen.width;
         let closed = fan.outlines.iter().map(|outline| lines::plain(outline, width, 1.0, true));
@@ -171,19 +193,21 @@ impl<'a> Annotating<'a> {
         Ok(layers)
     }
 
-    /// An arrow: its shaft and its head.
+    /// An arrow: its shaft and its head. There is none between places that are equal.
     fn arrow(
         &self,
         view: &View,
         renderer: Option<&Renderer<'_>>,
         table: &ArrowTable,
-        i: usize,
+        (i, notes): (usize, &mut Vec<String>),
     ) -> Result<Option<Layer>, Failure> {
         let pen = self.pen(&table.line, "arrow", &format!("arrow[{i}].pen"))?;
         let (Some(from), Some(to)) = (self.end(&table.from, false), self.end(&table.to, true)) else {
             return Ok(None);
         };
-        let Some(curve) = ArrowCurve::new(view, [&from, &to].map(|end| self.centre(end)), table.bend) else {
+        let places = [&from, &to].map(|end| self.centre(end));
+        let Some(curve) = ArrowCurve::new(view, places, table.bend) else {
+            notes.extend(undrawn(view, places).map(|why| format!("the arrow {i} is left out: {why}")));
             return Ok(None);
         };
         // The part between the boxes' outlines.
@@ -200,7 +224,8 @@ impl<'a> Annotating<'a> {
                 [begin, tip] = [0.0, 1.0];
             }
         }
-        let head = self.mm(table.head) * self.pixels_per_mm(view);
+        let half = curve.length([begin, tip]) / 2.0;
+        let head = (self.mm(table.head) * self.pixels_per_mm(view)).min(half);
         let neck = curve.before(tip, head * 0.8).max(begin);
         let seen = self.seen(view, renderer, &pen);
         let shaft = seen.line(&curve.points([begin, neck], MOST_POINTS), lines::Course::Curved);
@@ -274,5 +299,18 @@ impl<'a> Annotating<'a> {
 
     fn pixels_per_mm(&self, view: &View) -> f64 {
         view.size[1] as f64 / self.page.picture().y
+    }
+}
+
+/// The reason why there is no arrow between two places. Returns none if both are one place for the eye.
+fn undrawn(view: &View, places: [DVec3; 2]) -> Option<&'static str> {
+    let ends = places.map(|place| view.point_of(place).map(DVec2::from));
+    let [near, far] = places.map(|place| view.to_eye(place).z);
+    match ends {
+        [Some(from), Some(to)] if from == to && from.is_finite() => {
+            (near != far).then_some("it is seen along its direction; try another bend")
+        }
+        [Some(_), Some(_)] => Some("it is too long for the picture; try a smaller bend, or nearer places"),
+        _ => Some("one of its ends is not before the eye"),
     }
 }

@@ -43,7 +43,7 @@ pub enum Hidden {
     Crossing(usize),
     /// Its anchor, its box or its leader line leaves the frame, or its box covers an obstacle.
     OutsideFrame,
-    /// Columns only: the boxes of nearer labels fill both columns, or the only place left covers its anchor.
+    /// Columns only: no column has room beside the hull and the obstacles, or the boxes of nearer labels fill it.
     NoRoom,
     /// The numbers of the page are too large or too small to compute with.
     OutOfRange,
@@ -60,7 +60,7 @@ pub struct PlacedAnnotation {
     /// t of the label's place if no conflict moves the label: the hull point near the anchor, in columns the bend level
     /// with the anchor. The next layout starts from it. In columns t of the left one is from ¼ to ¾. None if the label is
     /// [`Hidden::Invalid`] or [`Hidden::OutOfRange`], if its anchor is outside the frame, or if its box is too large for
-    /// both columns.
+    /// each column.
     pub home: Option<f64>,
     /// Lower and upper corner of the box.
     pub corners: [DVec2; 2],

@@ -31,13 +31,13 @@ pub(super) struct Anchored {
 }
 
 impl Annotating<'_> {
-    /// The labels of a frame, beside what stands in the margin. Places are found in the first frame and stay in the world.
+    /// The labels of a frame, which cover no obstacle. Places are found in the first frame and stay in the world.
     /// Labels of objects stay at their centres.
     pub(super) fn labels(
         &mut self,
         view: &View,
         renderer: Option<&Renderer<'_>>,
-        margin: &[Layer],
+        obstacles: Vec<[DVec2; 2]>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<Layer>, Failure> {
         if self.tables().labels.is_empty() {
@@ -51,16 +51,13 @@ impl Annotating<'_> {
         let table = self.tables().arrangement.clone().unwrap_or_default();
         let pen = self.pen(&table.line, "labels", "labels.pen")?;
         let Some(anchors) = &self.anchors else { return Ok(Vec::new()) };
-        let page = self.annotated_page(view, &table, (anchors, seen.as_ref()), obstacles(margin));
+        let page = self.annotated_page(view, &table, (anchors, seen.as_ref()), obstacles);
         let arrange = match table.layout {
             LabelLayout::Hull => layout,
             LabelLayout::Columns => columns,
         };
         let found = arrange(&page, self.previous.as_ref());
-        notes.extend(left_out(&found, anchors));
-        if table.layout == LabelLayout::Columns && reaches_over(&found, &page.outline) {
-            notes.push("columns of labels lie over the picture: there is no room beside it".into());
-        }
+        notes.extend(left_out(&found, &page, anchors));
         // Leader lines with their dots, then text.
         let mut layer = Layer::new(pen);
         let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
@@ -121,12 +118,14 @@ impl Annotating<'_> {
         }
     }
 
-    /// Points of the page whose convex hull labels surround: of what is seen, and of boxes that are drawn. Without rays it is
-    /// the volume's box.
+    /// Points of the page whose convex hull labels surround: of what is seen, of boxes that are drawn, and of the outlines
+    /// of fans. Without rays and outlines it is the volume's box.
     fn around(&self, view: &View, seen: Option<&Seen>) -> Vec<DVec2> {
         let boxes = self.tables().boxes.iter().filter(|table| table.show == BoxShown::Always);
         let boxes = boxes.filter_map(|table| self.corners_of(&table.of)).flatten();
         let mut around = self.on_page(view, &boxes.collect::<Vec<_>>());
+        let fans = self.tables().fans.iter().filter_map(|table| self.fan_outlines(view, table));
+        around.extend(fans.flat_map(|fan| fan.outlines).flatten());
         around.extend(seen.iter().flat_map(|seen| &seen.ends).map(|&at| self.page.place(at.into(), view.size)));
         if around.is_empty() {
             around = self.on_page(view, &self.job.volume.grid().world_corners());
@@ -198,23 +197,6 @@ impl Annotating<'_> {
     }
 }
 
-/// The rectangles around lines and text, which labels do not cover.
-fn obstacles(layers: &[Layer]) -> Vec<[DVec2; 2]> {
-    let mut all = Vec::new();
-    for layer in layers {
-        all.extend(layer.lines.iter().map(|line| {
-            let ends = [DVec2::INFINITY, DVec2::NEG_INFINITY];
-            let half = layer.pen.width / 2.0;
-            line.vertices.iter().fold(ends, |[lo, hi], v| [lo.min(v.at - half), hi.max(v.at + half)])
-        }));
-        all.extend(layer.texts.iter().map(|text| {
-            let extent = extent(&text.characters, text.size);
-            [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
-        }));
-    }
-    all
-}
-
 /// Points whose convex hull lies a distance around that of others.
 fn widened(points: &[DVec2], distance: f64) -> Vec<DVec2> {
     // The corners of an octagon around each point, which reach as far as a circle along the axes and the diagonals.
@@ -261,14 +243,6 @@ impl Seen {
     }
 }
 
-/// Whether labels reach into the bounding box of an outline.
-fn reaches_over(found: &AnnotationLayout, outline: &[DVec2]) -> bool {
-    let of_x = |of: fn(f64, f64) -> f64, first: f64| outline.iter().map(|p| p.x).fold(first, of);
-    let [left, right] = [of_x(f64::min, f64::INFINITY), of_x(f64::max, f64::NEG_INFINITY)];
-    let mut shown = found.annotations.iter().filter(|place| place.hidden.is_none());
-    shown.any(|place| place.corners[0].x < right && place.corners[1].x > left)
-}
-
 /// The centroid of the voxels of a label, in world space. Returns none if the label has no voxel.
 fn centroid(labels: &LabelVolume, grid: Grid, id: u32) -> Option<DVec3> {
     let [nx, ny, nz] = grid.dims();
@@ -285,17 +259,20 @@ fn centroid(labels: &LabelVolume, grid: Grid, id: u32) -> Option<DVec3> {
 }
 
 /// The labels of a layout that are left out, a sentence each.
-fn left_out(found: &AnnotationLayout, labels: &[Anchored]) -> Vec<String> {
-    let sentence = |(place, label): (&PlacedAnnotation, &Anchored)| {
+fn left_out(found: &AnnotationLayout, page: &AnnotatedPage, labels: &[Anchored]) -> Vec<String> {
+    let [low, high] = page.frame;
+    let sentence = |((place, given), label): ((&PlacedAnnotation, &Annotation), &Anchored)| {
+        let is_outside = given.anchor.clamp(low, high) != given.anchor;
         let why = match place.hidden? {
             Hidden::Overlap(other) => format!("it would overlap {:?}", labels.get(other)?.text),
             Hidden::Crossing(other) => format!("its leader line would cross that of {:?}", labels.get(other)?.text),
+            Hidden::OutsideFrame if is_outside => "what it names is outside the picture".into(),
             Hidden::OutsideFrame => "there is no room for it in the picture".into(),
-            Hidden::NoRoom => "nearer labels leave no room for it".into(),
+            Hidden::NoRoom => "the columns beside the structure have no room for it".into(),
             Hidden::OutOfRange => "the picture's lengths are too large or too small".into(),
             Hidden::Invalid => "what it names is not before the eye".into(),
         };
         Some(format!("the label {:?} is left out: {why}", label.text))
     };
-    found.annotations.iter().zip(labels).filter_map(sentence).collect()
+    found.annotations.iter().zip(&page.annotations).zip(labels).filter_map(sentence).collect()
 }

@@ -1,5 +1,6 @@
 //! A legend: the looks of the transfer function with their names, in a corner of the picture.
 
+use super::room::MarginRoom;
 use super::{Annotating, lines, name_of_label, words};
 use crate::Failure;
 use crate::job::{Job, RenderTarget};
@@ -50,8 +51,6 @@ pub(super) struct DrawnLegend {
     pub(super) layer: Layer,
     /// Lit spheres in the picture's pixels.
     pub(super) spheres: Vec<Overlay>,
-    /// The upper left and the lower right corner, in mm.
-    pub(super) corners: [DVec2; 2],
 }
 
 /// Returns the rows of a job's legend.
@@ -93,8 +92,13 @@ fn name(job: &Job, row: &LegendRow<'_>) -> String {
 }
 
 impl Annotating<'_> {
-    /// The legend; none if the scene has none, or nothing to list.
-    pub(super) fn legend(&self, view: &View, notes: &mut Vec<String>) -> Result<Option<DrawnLegend>, Failure> {
+    /// The legend; none if the scene has none, nothing to list, or no room for it.
+    pub(super) fn legend(
+        &self,
+        view: &View,
+        room: &mut MarginRoom,
+        notes: &mut Vec<String>,
+    ) -> Result<Option<DrawnLegend>, Failure> {
         let Some(table) = self.tables().legend.as_ref().filter(|_| !self.rows.is_empty()) else { return Ok(None) };
         let mut layer = Layer::new(self.pen(&table.line, "legend", "legend.pen")?);
         let (size, rows) = (self.mm(table.size), &self.rows);
@@ -108,11 +112,12 @@ impl Annotating<'_> {
         let of_title = table.title.as_deref().map_or(0.0, width);
         let high = title + disc.max(size) + pitch * (rows.len() - 1) as f64;
         let extent = DVec2::new((disc + GAP * size + widest).max(of_title), high);
-        let room = self.page.picture() - 2.0 * INSET * size;
-        if extent.cmpgt(room).any() {
-            notes.push("the legend is larger than the picture: give it a smaller size, or fewer names".into());
-        }
-        let corner = self.in_corner(table.corner, extent, INSET * size);
+        let Some(corner) = room.in_corner(table.corner, extent, INSET * size) else {
+            notes.push(
+                "the legend is left out: it has no room in the picture; try a smaller size or fewer names".into(),
+            );
+            return Ok(None);
+        };
         if let Some(title) = &table.title {
             let at = corner + DVec2::new(0.0, 0.8 * size);
             layer.texts.push(Text { characters: title.clone(), at, size, opacity: 1.0 });
@@ -132,7 +137,7 @@ impl Annotating<'_> {
         if layer.areas.is_empty() && spheres.is_empty() {
             notes.push("the legend has circles without looks: no pixels are drawn, or a pen draws them".into());
         }
-        Ok(Some(DrawnLegend { layer, spheres, corners: [corner, corner + extent] }))
+        Ok(Some(DrawnLegend { layer, spheres }))
     }
 
     /// The lit sphere of a row in the picture's pixels; none where a colour or an empty circle stands for the row. Its
@@ -157,13 +162,5 @@ impl Annotating<'_> {
             layer.areas.push(Area { outlines: vec![outline.clone()], opacity: 1.0, color: Some(color) });
         }
         layer.lines.push(lines::plain(&outline, layer.pen.width, 1.0, true));
-    }
-}
-
-impl DrawnLegend {
-    /// A line around the legend, for what must not cover it.
-    pub(super) fn outline(&self) -> Layer {
-        let outline = lines::plain(&self.corners, self.layer.pen.width, 1.0, false);
-        Layer { lines: vec![outline], ..Layer::new(self.layer.pen.clone()) }
     }
 }

@@ -4,12 +4,15 @@ use drypoint_reference::ray::Renderer;
 use drypoint_reference::volumeshop::conventions::CurvePoint;
 use drypoint_scene::color::Rgb;
 use drypoint_scene::glam::{DVec2, DVec3};
-use drypoint_scene::marks::{Page, Polyline, Vertex};
+use drypoint_scene::marks::{Layer, Page, Polyline, Vertex};
 use drypoint_scene::parallel;
 use drypoint_scene::view::View;
 
 /// The share of a line's light below which the line is not drawn.
 const HIDDEN: f64 = 1.0 / 16.0;
+
+/// The least number of parts of a line that labels keep off.
+const PARTS: usize = 8;
 
 /// The share of a line's light from which on the line has its own colour.
 const CLEAR: f64 = 1.0 - 1.0 / 512.0;
@@ -102,7 +105,63 @@ pub(crate) fn plain(points: &[DVec2], width: f64, opacity: f64, closed: bool) ->
     Polyline { vertices: points.iter().enumerate().map(vertex).collect(), closed }
 }
 
+/// Returns rectangles around the parts of a layer's lines, and of the outlines of its areas.
+pub(super) fn rectangles(layer: &Layer) -> Vec<[DVec2; 2]> {
+    let points = |line: &Polyline| -> Vec<DVec2> {
+        let first = line.vertices.first().filter(|_| line.closed);
+        line.vertices.iter().chain(first).map(|vertex| vertex.at).collect()
+    };
+    let outlines = layer.areas.iter().flat_map(|area| &area.outlines);
+    let closed = outlines.map(|outline| outline.iter().chain(outline.first()).copied().collect());
+    let lines = layer.lines.iter().map(points).chain(closed);
+    lines.flat_map(|points: Vec<DVec2>| around_parts(&points, layer.pen.width / 2.0)).collect()
+}
+
+/// Rectangles around the parts of a line, at a distance. They are at least [`PARTS`], and about twice as many at most.
+fn around_parts(points: &[DVec2], distance: f64) -> Vec<[DVec2; 2]> {
+    let step = points.windows(2).map(|ends| ends[0].distance(ends[1])).sum::<f64>() / PARTS as f64;
+    let mut fine: Vec<DVec2> = points[..points.len().min(1)].to_vec();
+    for ends in points.windows(2) {
+        let n = (ends[0].distance(ends[1]) / step).ceil().clamp(1.0, PARTS as f64);
+        fine.extend((1..=n as usize).map(|i| ends[0].lerp(ends[1], i as f64 / n)));
+    }
+    let last = fine.len().saturating_sub(1);
+    let most = last.div_ceil(2 * PARTS).max(1);
+    let parts = (0..last).step_by(most).map(|i| &fine[i..=(i + most).min(last)]);
+    let around = |part: &[DVec2]| {
+        let first = [part[0] - distance, part[0] + distance];
+        part.iter().fold(first, |[lo, hi], &p| [lo.min(p - distance), hi.max(p + distance)])
+    };
+    parts.map(around).collect()
+}
+
 /// Returns a width on its step of 0.01 mm, so that half of it is on the step of radii.
 pub(super) fn on_step(width: f64) -> f64 {
     (width * 100.0).round_ties_even().max(1.0) / 100.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each point of a line is in a rectangle, and all of them together cover little else.
+    #[test]
+    fn rectangles_follow_a_line() {
+        let circle: Vec<DVec2> = (0..=200).map(|i| 10.0 * DVec2::from_angle(f64::from(i) * 0.03)).collect();
+        let diagonal = vec![DVec2::ZERO, DVec2::new(30.0, 20.0)];
+        let corner = vec![DVec2::ZERO, DVec2::new(30.0, 0.0), DVec2::new(30.0, 20.0)];
+        for (points, most) in [(circle, 120.0), (diagonal, 600.0 / 8.0 + 30.0), (corner, 40.0)] {
+            let found = around_parts(&points, 0.25);
+            assert!((PARTS..=3 * PARTS).contains(&found.len()), "{}", found.len());
+            for ends in points.windows(2) {
+                for i in 0..=50 {
+                    let p = ends[0].lerp(ends[1], f64::from(i) / 50.0);
+                    assert!(found.iter().any(|[lo, hi]| lo.cmple(p - 0.249).all() && hi.cmpge(p + 0.249).all()), "{p}");
+                }
+            }
+            let area: f64 = found.iter().map(|[lo, hi]| (hi - lo).element_product()).sum();
+            assert!(area < most, "{area}");
+        }
+        assert!(around_parts(&[], 1.0).is_empty() && around_parts(&[DVec2::ONE], 1.0).is_empty());
+    }
 }

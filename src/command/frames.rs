@@ -109,6 +109,7 @@ impl FrameFiles {
     fn summary(&self, frames: usize) -> String {
         match self {
             Self::One(path) => path.display().to_string(),
+            Self::Numbered(..) if frames == 1 => self.path(0).display().to_string(),
             Self::Animated(path) => format!("{}: {frames} frames", path.display()),
             Self::Numbered(..) => {
                 format!("{} … {}: {frames} frames", self.path(0).display(), self.path(frames - 1).display())

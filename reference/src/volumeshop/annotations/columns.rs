@@ -18,9 +18,9 @@ const LARGEST: f64 = 1e150;
 
 /// Places the labels of a page in two columns, at the left and at the right of the hull's bounding box.
 ///
-/// - A column is flush at its inner edge, at a gap from the bounding box. If its widest label has no room there, the
-///   column moves inwards until that label reaches the frame.
-/// - Columns stand in the largest part of the frame beside all obstacles.
+/// - A column is flush at its inner edge, at a gap from the bounding box. A label that has no room there is hidden.
+/// - Obstacles between a column's inner edge and the outer edge of its widest label part the column into free intervals
+///   of y. Each box stands in one of them.
 /// - A label stands in the column on its anchor's side of the box's middle. A label that fits in one column alone
 ///   stands there. A column that is full gives its labels nearest the middle to the other one.
 /// - Labels of a column are in the order of their anchors' y. Labels whose lines cross are exchanged.
@@ -33,7 +33,7 @@ const LARGEST: f64 = 1e150;
 /// anchor is beyond the middle by 5 % of the bounding box's width. If labels that are shown have conflicts in these
 /// columns, all columns are those without a previous layout. A layout from a finished one changes nothing.
 ///
-/// Anchors may move while the labels that are shown, their columns and their order stay. Then the sum of the boxes'
+/// Anchors may move while the labels that are shown, their columns, their free intervals and their order stay. Then the sum of the boxes'
 /// squared vertical motions is at most the sum of the anchors' squared vertical motions.
 pub fn columns(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> AnnotationLayout {
     let all = &page.annotations;
@@ -49,8 +49,11 @@ pub fn columns(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Ann
     for (label, &i) in order.iter().enumerate() {
         match sheet.fits(label) {
             _ if is_large => places[i].hidden = Some(Hidden::OutOfRange),
-            [false, false] => places[i].hidden = Some(Hidden::OutsideFrame),
+            _ if all[i].size.cmpgt(page.frame[1] - page.frame[0]).any() => {
+                places[i].hidden = Some(Hidden::OutsideFrame)
+            }
             _ if is_small => places[i].hidden = Some(Hidden::OutOfRange),
+            [false, false] => places[i].hidden = Some(Hidden::NoRoom),
             _ => fitting.push(label),
         }
     }
@@ -63,7 +66,7 @@ pub fn columns(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Ann
     let relocations = relocations(&sheet, &standing, &before, &order);
     let hidden = left_out.iter().flat_map(|&(label, reason)| {
         let (side, reason) = (sheet.side(label, before[label].and_then(side)), named(reason, &order));
-        sheet.column(side, &[label]).into_iter().map(move |standing| (standing, Some(reason)))
+        sheet.column(side, &[label]).into_iter().flatten().map(move |standing| (standing, Some(reason)))
     });
     for (Standing { label, slant: [anchor, bend], end, corners, .. }, hidden) in
         standing.into_iter().map(|standing| (standing, None)).chain(hidden)
@@ -99,7 +102,7 @@ fn named(reason: Hidden, order: &[usize]) -> Hidden {
 /// Labels without a previous place come from the column on their anchor's side. Without a previous layout, labels of a
 /// column come from the order of their anchors' y.
 fn relocations(
-    sheet: &Sheet,
+    sheet: &Sheet<'_>,
     standing: &[Standing],
     before: &[Option<&PlacedAnnotation>],
     order: &[usize],

@@ -75,7 +75,11 @@ fn ends(scene: &Scene, check: &mut Check) {
             let key = format!("{table}.{key}");
             let what = format!("{key} is missing, and {moved} objects are moved");
             let remedy = "name a part or a point; the default is of the only object that is moved".into();
-            check.fault_in(&key, Problem::Contradiction { what, remedy });
+            // A key that is not there has the place of its table.
+            match check.place(&table).cloned() {
+                Some(place) => check.fault_of(key, &place, Problem::Contradiction { what, remedy }),
+                None => check.fault_in(&key, Problem::Contradiction { what, remedy }),
+            }
         }
         let fan_point = [("from", from), ("to", to)]
             .into_iter()
@@ -146,6 +150,17 @@ mod tests {
         ] {
             let faults = scene(rest).unwrap_err();
             assert!(faults.contains(what), "{rest}: {faults}");
+        }
+    }
+
+    /// An end that is missing is reported at its table.
+    #[test]
+    fn a_missing_end_has_the_place_of_its_table() {
+        for (rest, line) in
+            [("[[arrow]]\n", 4), ("[[fan]]\n[[box]]\n", 4), ("[[box]]\n\n[[fan]]\nfrom = \"background\"\n", 6)]
+        {
+            let faults = scene(rest).unwrap_err();
+            assert!(faults.contains(&format!("at scene.toml:{line}:1, key ")), "{rest}: {faults}");
         }
     }
 

@@ -1,10 +1,11 @@
 //! The labels of a page in two columns: which are shown, in which column, in which order.
 
-use super::stack::stack;
+use super::stack::{is_room, stack};
 use crate::volumeshop::annotations::layout::MOST_ROUNDS;
-use crate::volumeshop::annotations::segments::{cross, meet, overlap, passes, within};
+use crate::volumeshop::annotations::segments::cross;
 use drypoint_scene::annotations::{AnnotatedPage, Annotation, Hidden};
 use drypoint_scene::glam::DVec2;
+use std::cmp::Ordering;
 
 /// The distance of a column from the hull's bounding box, as a fraction of the frame's diagonal. Leader lines bend
 /// halfway.
@@ -34,27 +35,18 @@ pub(super) struct Standing {
 }
 
 impl Standing {
-    /// The conflict of this label with another one, if any.
+    /// The conflict of this label with another one, if any. Columns lie beside all lines up to their bends, and boxes of a
+    /// column lie apart. So only lines from anchors to bends can cross.
     fn conflict(&self, other: &Self) -> Option<Hidden> {
-        let [a, b] = [self, other].map(|standing| [standing.slant[1], standing.end]);
-        if overlap(self.corners, other.corners) {
-            return Some(Hidden::Overlap(other.label));
-        }
-        let is_crossing = cross(self.slant, other.slant)
-            || meet(self.slant, b)
-            || meet(a, other.slant)
-            || meet(a, b)
-            || [self.slant, a].into_iter().any(|line| passes(line, other.corners))
-            || [other.slant, b].into_iter().any(|line| passes(line, self.corners));
-        is_crossing.then_some(Hidden::Crossing(other.label))
+        cross(self.slant, other.slant).then_some(Hidden::Crossing(other.label))
     }
 }
 
 /// A page with its labels in the order of priority.
-pub(super) struct Sheet {
+pub(super) struct Sheet<'a> {
     pub(super) labels: Vec<Annotation>,
-    /// The frame without the strips that obstacles take.
     frame: [DVec2; 2],
+    obstacles: &'a [[DVec2; 2]],
     /// The hull's bounding box within the frame.
     bounds: [DVec2; 2],
     /// The middle of the bounding box. Columns are to its left and to its right.
@@ -63,23 +55,57 @@ pub(super) struct Sheet {
     rounds: usize,
 }
 
-impl Sheet {
-    pub(super) fn new(page: &AnnotatedPage, labels: Vec<Annotation>) -> Self {
-        let frame = page.obstacles.iter().fold(page.frame, |frame, obstacle| beside(frame, *obstacle));
+impl<'a> Sheet<'a> {
+    pub(super) fn new(page: &'a AnnotatedPage, labels: Vec<Annotation>) -> Self {
+        let (frame, obstacles) = (page.frame, &page.obstacles);
         let [lower, upper] = frame;
         let outline = page.outline.iter().copied().filter(|point| point.is_finite());
         let points = outline.map(|point| point.max(lower).min(upper)).chain(labels.iter().map(|label| label.anchor));
         let bounds = points.fold([upper, lower], |[low, high], point| [low.min(point), high.max(point)]);
         let middle = bounds[0] / 2.0 + bounds[1] / 2.0;
-        Self { frame, bounds, middle, gap: lower.distance(upper) * GAP, rounds: page.rounds.min(MOST_ROUNDS), labels }
+        let (gap, rounds) = (lower.distance(upper) * GAP, page.rounds.min(MOST_ROUNDS));
+        Self { frame, obstacles, bounds, middle, gap, rounds, labels }
+    }
+
+    /// The x of a column's inner edge.
+    fn inner(&self, side: Side) -> f64 {
+        match side {
+            Side::Left => self.bounds[0].x - self.gap,
+            Side::Right => self.bounds[1].x + self.gap,
+        }
+    }
+
+    /// The heights that obstacles leave free to a column of a width, as intervals that ascend. There are none if the column
+    /// leaves the frame.
+    fn free(&self, side: Side, width: f64) -> Vec<[f64; 2]> {
+        let ([lower, upper], inner) = (self.frame, self.inner(side));
+        let [left, right] = if side == Side::Left { [inner - width, inner] } else { [inner, inner + width] };
+        if left < lower.x || right > upper.x {
+            return Vec::new();
+        }
+        let met = self.obstacles.iter().filter(|[low, high]| low.x < right && left < high.x);
+        let mut taken: Vec<[f64; 2]> = met.map(|[low, high]| [low.y, high.y.min(upper.y)]).collect();
+        taken.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let (mut free, mut start) = (Vec::new(), lower.y);
+        for [low, high] in taken.into_iter().chain([[upper.y; 2]]) {
+            if low > start {
+                free.push([start, low.min(upper.y)]);
+            }
+            start = start.max(high);
+        }
+        free
+    }
+
+    /// Whether labels fit in a column.
+    fn is_room(&self, side: Side, labels: &[usize]) -> bool {
+        let sizes = labels.iter().map(|&label| self.labels[label].size);
+        let width = sizes.clone().map(|size| size.x).fold(0.0, f64::max);
+        is_room(sizes.map(|size| size.y), &self.free(side, width))
     }
 
     /// Whether a label fits in the left column, and whether in the right one, if it is alone.
     pub(super) fn fits(&self, label: usize) -> [bool; 2] {
-        let [lower, upper] = self.frame;
-        let size = self.labels[label].size;
-        [self.middle.x - lower.x, upper.x - self.middle.x]
-            .map(|room| size.x <= room - self.gap && size.y <= upper.y - lower.y)
+        [Side::Left, Side::Right].map(|side| self.is_room(side, &[label]))
     }
 
     /// The x that decides on a label's column. It is farther on the side of the column in which the label was.
@@ -109,19 +135,19 @@ impl Sheet {
         let keys: Vec<f64> = labels.iter().zip(was).map(|(&label, &was)| self.key(label, was)).collect();
         let mut order: Vec<usize> = (0..labels.len()).collect();
         order.sort_by(|&i, &j| keys[i].total_cmp(&keys[j]));
-        let room = self.frame[1].y - self.frame[0].y;
-        let height = |&i: &usize| self.labels[labels[i]].size.y;
         // Number of labels that fit, from the start of the order and from its end.
-        let fitting = |heights: &mut dyn Iterator<Item = f64>| {
-            let sums = heights.scan(0.0, |sum, height| {
-                *sum += height;
-                Some(*sum)
+        let fitting = |side: Side, order: &mut dyn Iterator<Item = &usize>| {
+            let mut column = Vec::new();
+            let grown = order.map(|&i| {
+                let at = column.partition_point(|&other| self.is_above(other, labels[i]));
+                column.insert(at, labels[i]);
+                self.is_room(side, &column)
             });
-            sums.take_while(|sum| *sum <= room).count()
+            grown.take_while(|is_room| *is_room).count()
         };
         let forced = |key: f64| keys.iter().filter(|k| **k == key).count();
-        let most = fitting(&mut order.iter().map(height)).min(labels.len() - forced(f64::INFINITY));
-        let least = labels.len() - fitting(&mut order.iter().rev().map(height));
+        let most = fitting(Side::Left, &mut order.iter()).min(labels.len() - forced(f64::INFINITY));
+        let least = labels.len() - fitting(Side::Right, &mut order.iter().rev());
         let least = least.max(forced(f64::NEG_INFINITY));
         let wanted = keys.iter().filter(|key| **key < self.middle.x).count();
         (least <= most).then(|| {
@@ -150,19 +176,27 @@ impl Sheet {
             let labels: Vec<_> = labels.iter().zip(&sides).filter(|(_, s)| **s == side).map(|(l, _)| *l).collect();
             self.column(side, &labels)
         };
-        Some([Side::Left, Side::Right].into_iter().flat_map(column).collect())
+        Some([column(Side::Left)?, column(Side::Right)?].concat())
     }
 
-    /// Places labels in one column, from the least y to the largest.
+    /// Whether a label's anchor is above another one's; of anchors at one height the nearer label's is.
+    fn is_above(&self, label: usize, other: usize) -> bool {
+        let [a, b] = [label, other].map(|label| self.labels[label].anchor.y);
+        a < b || a == b && label < other
+    }
+
+    /// Places labels in one column, from the least y to the largest. Returns none if they do not fit.
     ///
-    /// Boxes of equal heights have no crossings after the exchanges at fixed bends: the boxes that touch exchange their
-    /// anchors without moving. Boxes of different heights move, so crossings may be left.
-    pub(super) fn column(&self, side: Side, labels: &[usize]) -> Vec<Standing> {
+    /// Boxes of equal heights in one free interval have no crossings after the exchanges at fixed bends: the boxes that
+    /// touch exchange their anchors without moving. Other boxes move, so crossings may be left.
+    pub(super) fn column(&self, side: Side, labels: &[usize]) -> Option<Vec<Standing>> {
         let mut order = labels.to_vec();
-        order.sort_by(|&i, &j| self.labels[i].anchor.y.total_cmp(&self.labels[j].anchor.y));
-        let ascending = self.stand(side, &order);
-        self.exchange_anchors(&mut order, ascending);
-        let mut standing = self.stand(side, &order);
+        order.sort_by(|&i, &j| if self.is_above(i, j) { Ordering::Less } else { Ordering::Greater });
+        let mut standing = self.stand(side, &order)?;
+        let exchanged = self.exchange_anchors(order.clone(), standing.clone());
+        if let Some(found) = self.stand(side, &exchanged) {
+            (order, standing) = (exchanged, found);
+        }
         let mut least = tangle(&standing);
         // Each exchange leaves fewer crossings, or shorter lines with as many. So no order comes twice.
         for _ in 0..self.rounds {
@@ -171,11 +205,9 @@ impl Sheet {
                 if cross(standing[i].slant, standing[j].slant) {
                     order.swap(i, j);
                     let exchanged = self.stand(side, &order);
-                    let found = tangle(&exchanged);
-                    if found < least {
-                        (standing, least) = (exchanged, found);
-                    } else {
-                        order.swap(i, j);
+                    match exchanged.map(|exchanged| (tangle(&exchanged), exchanged)) {
+                        Some((found, exchanged)) if found < least => (standing, least) = (exchanged, found),
+                        _ => order.swap(i, j),
                     }
                 }
             }
@@ -183,13 +215,13 @@ impl Sheet {
                 break;
             }
         }
-        standing
+        Some(standing)
     }
 
-    /// Exchanges the anchors of lines that cross, while all bends stay.
+    /// Exchanges the anchors of lines that cross, while all bends stay. Returns the order.
     ///
     /// Each exchange shortens the lines, so no order comes twice.
-    fn exchange_anchors(&self, order: &mut [usize], mut standing: Vec<Standing>) {
+    fn exchange_anchors(&self, mut order: Vec<usize>, mut standing: Vec<Standing>) -> Vec<usize> {
         for _ in 0..self.rounds {
             let mut any = false;
             for (i, j) in pairs(order.len()) {
@@ -205,43 +237,32 @@ impl Sheet {
                 break;
             }
         }
+        order
     }
 
-    /// Places labels in one column in the given order.
-    fn stand(&self, side: Side, order: &[usize]) -> Vec<Standing> {
-        let [lower, upper] = self.frame;
+    /// Places labels in one column in the given order. Returns none if they do not fit in this order.
+    fn stand(&self, side: Side, order: &[usize]) -> Option<Vec<Standing>> {
         let sizes = || order.iter().map(|&label| self.labels[label].size);
-        let width = sizes().map(|size| size.x).fold(0.0, f64::max);
-        let (inner, bend) = match side {
-            Side::Left => {
-                let inner = (self.bounds[0].x - self.gap).max(lower.x + width);
-                (inner, inner + self.gap / 2.0)
-            }
-            Side::Right => {
-                let inner = (self.bounds[1].x + self.gap).min(upper.x - width);
-                (inner, inner - self.gap / 2.0)
-            }
-        };
+        let free = self.free(side, sizes().map(|size| size.x).fold(0.0, f64::max));
+        let inner = self.inner(side);
+        let bend = if side == Side::Left { inner + self.gap / 2.0 } else { inner - self.gap / 2.0 };
         let wanted: Vec<_> = order.iter().zip(sizes()).map(|(&i, size)| [self.labels[i].anchor.y, size.y]).collect();
-        let standing = stack(&wanted, [lower.y, upper.y]).into_iter().zip(order).map(|(y, &label)| {
+        let standing = stack(&wanted, &free)?.into_iter().zip(order).map(|(y, &label)| {
             let Annotation { anchor, size, .. } = self.labels[label];
             let x = if side == Side::Left { inner - size.x } else { inner };
-            // Rounding may lead out of the frame.
-            let corners = [DVec2::new(x, y).max(lower), DVec2::new(x + size.x, y + size.y).min(upper)];
+            // Rounding may lead out of a free interval.
+            let end = free.iter().map(|[_, high]| *high).find(|high| *high > y).unwrap_or(f64::INFINITY);
+            let corners = [DVec2::new(x, y), DVec2::new(x + size.x, (y + size.y).min(end))];
             let level = corners[0].y / 2.0 + corners[1].y / 2.0;
             let [bend, end] = [bend, inner].map(|x| DVec2::new(x, level));
             Standing { label, side, slant: [anchor, bend], end, corners }
         });
-        standing.collect()
+        Some(standing.collect())
     }
 
-    /// Whether labels have no conflict: with each other, with the frame, or with their own anchors.
+    /// Whether labels have no conflict with each other.
     pub(super) fn are_free(&self, standing: &[Standing]) -> bool {
-        standing.iter().enumerate().all(|(i, a)| {
-            a.corners.iter().all(|corner| within(*corner, self.frame))
-                && !passes(a.slant, a.corners)
-                && standing[..i].iter().all(|b| a.conflict(b).is_none())
-        })
+        pairs(standing.len()).all(|(i, j)| standing[j].conflict(&standing[i]).is_none())
     }
 
     /// The labels that are shown, and those that are left out with the reason, both in the order of priority.
@@ -277,21 +298,6 @@ impl Sheet {
         left_out.sort_by_key(|(label, _)| *label);
         (free, left_out)
     }
-}
-
-/// The largest part of a frame at the left, at the right, above or below an obstacle in it.
-fn beside([lower, upper]: [DVec2; 2], [low, high]: [DVec2; 2]) -> [DVec2; 2] {
-    if !overlap([lower, upper], [low, high]) {
-        return [lower, upper];
-    }
-    let size = upper - lower;
-    let parts = [
-        ((high.x - lower.x) / size.x, [DVec2::new(high.x, lower.y), upper]),
-        ((upper.x - low.x) / size.x, [lower, DVec2::new(low.x, upper.y)]),
-        ((high.y - lower.y) / size.y, [DVec2::new(lower.x, high.y), upper]),
-        ((upper.y - low.y) / size.y, [lower, DVec2::new(upper.x, low.y)]),
-    ];
-    parts.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).map_or([lower, upper], |(_, part)| part)
 }
 
 /// All pairs i < j of some numbers from 0.

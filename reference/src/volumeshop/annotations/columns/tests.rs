@@ -1,22 +1,49 @@
 use super::columns;
 use crate::volumeshop::annotations::tests::{ROUNDING, conflict, is_outside, kept, label, page};
 use crate::volumeshop::annotations::tests::{random_page, square};
-use drypoint_scene::annotations::{AnnotatedPage, AnnotationLayout, Hidden, PlacedAnnotation, Relocation};
+use drypoint_scene::annotations::{AnnotatedPage, Annotation, AnnotationLayout, Hidden, PlacedAnnotation, Relocation};
 use drypoint_scene::glam::DVec2;
 use drypoint_scene::philox::uniforms;
 
-/// Random pages: with much room beside the hull, with little, and with columns that are full.
+const WIDE: [DVec2; 2] = [DVec2::new(-100.0, 0.0), DVec2::new(900.0, 600.0)];
+
+/// Random pages: with much room beside the hull, with little, with columns that are full, and with obstacles.
 fn random_pages() -> impl Iterator<Item = AnnotatedPage> {
-    (0..600).map(|scene| {
+    (0..800).map(|scene| {
         let mut page = random_page(scene);
-        match scene % 3 {
-            0 => page.frame = [DVec2::new(-100.0, 0.0), DVec2::new(900.0, 600.0)],
+        match scene % 4 {
+            0 => page.frame = WIDE,
             1 => page.frame = [DVec2::new(250.0, 100.0), DVec2::new(550.0, 500.0)],
             2 => page.annotations.iter_mut().for_each(|label| label.size.y *= 3.0),
-            _ => {}
+            _ => {
+                page.frame = WIDE;
+                page.obstacles = (0..4).map(|i| obstacle(scene, i)).collect();
+            }
         }
         page
     })
+}
+
+/// An obstacle at the left or at the right end of the wide frame.
+fn obstacle(scene: u32, i: u32) -> [DVec2; 2] {
+    let [x, y, width, height] = uniforms(14, [scene, i, 0], 0);
+    let size = DVec2::new(20.0 + 200.0 * width, 10.0 + 150.0 * height);
+    let x = if i % 2 == 0 { -100.0 + 100.0 * x } else { 900.0 - size.x - 100.0 * x };
+    let low = DVec2::new(x, 620.0 * y - 20.0);
+    [low, low + size]
+}
+
+/// Whether the insides of two rectangles overlap.
+fn overlap([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
+    a.cmplt(d).all() && c.cmplt(b).all()
+}
+
+/// The bounding box of the hull and the anchors in the frame.
+fn bounds(page: &AnnotatedPage) -> [DVec2; 2] {
+    let outline = page.outline.iter().map(|point| point.clamp(page.frame[0], page.frame[1]));
+    let anchors = page.annotations.iter().map(|label| label.anchor);
+    let inside = anchors.filter(|anchor| anchor.clamp(page.frame[0], page.frame[1]) == *anchor);
+    outline.chain(inside).fold([DVec2::INFINITY, DVec2::NEG_INFINITY], |[lo, hi], p| [lo.min(p), hi.max(p)])
 }
 
 fn is_left(place: &PlacedAnnotation) -> bool {
@@ -32,19 +59,25 @@ fn column(laid: &AnnotationLayout, left: bool) -> Vec<usize> {
 }
 
 /// The conditions for the least sum of squared vertical shifts (Karush, Kuhn, Tucker): where boxes touch, no upper part
-/// of them would rather move up, and no lower part down, unless the frame stops it.
+/// of them would rather move up, and no lower part down, unless the frame or an obstacle stops it.
 fn check_least(page: &AnnotatedPage, laid: &AnnotationLayout, column: &[usize]) {
     let place = |k: usize| &laid.annotations[column[k]];
     let shift = |k: usize| place(k).leader[0].y - page.annotations[column[k]].anchor.y;
+    let x = |low: bool| {
+        let ends = column.iter().map(|&i| laid.annotations[i].corners);
+        ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], [a, b]| [lo.min(a.x), hi.max(b.x)])[usize::from(!low)]
+    };
+    let met: Vec<_> = page.obstacles.iter().filter(|[lo, hi]| lo.x < x(false) && x(true) < hi.x).collect();
     let touch = |k: usize| place(k).corners[1].y >= place(k + 1).corners[0].y - ROUNDING;
+    let near = |a: f64, b: f64| (a - b).abs() <= ROUNDING;
     let mut first = 0;
     for k in 0..column.len() {
         if k + 1 < column.len() && touch(k) {
             continue;
         }
         let [is_first, is_last] = [
-            place(first).corners[0].y <= page.frame[0].y + ROUNDING,
-            place(k).corners[1].y >= page.frame[1].y - ROUNDING,
+            met.iter().map(|[_, high]| high.y).chain([page.frame[0].y]).any(|y| near(place(first).corners[0].y, y)),
+            met.iter().map(|[low, _]| low.y).chain([page.frame[1].y]).any(|y| near(place(k).corners[1].y, y)),
         ];
         for middle in first..=k {
             let above: f64 = (first..=middle).map(shift).sum();
@@ -56,6 +89,12 @@ fn check_least(page: &AnnotatedPage, laid: &AnnotationLayout, column: &[usize]) 
     }
 }
 
+/// Whether a box has room between the hull's bounding box and the frame, beyond the gap of a fortieth of the diagonal.
+fn has_room(page: &AnnotatedPage, i: usize) -> bool {
+    let ([low, high], gap) = (bounds(page), page.frame[0].distance(page.frame[1]) / 40.0);
+    (low.x - page.frame[0].x).max(page.frame[1].x - high.x) >= page.annotations[i].size.x + gap
+}
+
 /// The laws of a finished layout in columns.
 fn check(page: &AnnotatedPage, laid: &AnnotationLayout) {
     let is_nearer = |j: usize, i: usize| (page.annotations[j].depth, j) < (page.annotations[i].depth, i);
@@ -65,14 +104,19 @@ fn check(page: &AnnotatedPage, laid: &AnnotationLayout) {
             None => {
                 assert_eq!(others.find_map(|j| conflict(page, laid, [i, j], ROUNDING)), None, "{i}");
                 assert!(!is_outside(page, i, place), "{i}");
+                assert!(!page.obstacles.iter().any(|obstacle| overlap(place.corners, *obstacle)), "{i}");
+                assert!(!overlap(place.corners, bounds(page)), "{i}");
                 let [low, high] = place.corners;
                 let [bend, end] = place.leader;
                 assert!(bend.y == end.y && bend.y == low.y / 2.0 + high.y / 2.0);
                 assert_eq!(end.x, if is_left(place) { high.x } else { low.x });
                 assert!((high - low - page.annotations[i].size).abs().max_element() <= ROUNDING);
             }
-            Some(Hidden::Overlap(j) | Hidden::Crossing(j)) => assert!(others.any(|k| k == j) && is_nearer(j, i)),
-            Some(Hidden::NoRoom) => {}
+            Some(Hidden::Crossing(j)) => assert!(others.any(|k| k == j) && is_nearer(j, i)),
+            // Without obstacles the label has no room beside the hull, or nearer labels take it.
+            Some(Hidden::NoRoom) => {
+                assert!(!page.obstacles.is_empty() || !has_room(page, i) || others.any(|j| is_nearer(j, i)), "{i}")
+            }
             Some(Hidden::OutsideFrame) => {}
             Some(hidden) => panic!("{i} {hidden:?}"),
         }
@@ -97,7 +141,7 @@ fn laid_out(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> Annota
 #[test]
 fn random_pages_keep_the_laws() {
     // Shown, left out for a crossing, without room, and outside the frame.
-    let mut count = [[0; 4]; 3];
+    let mut count = [[0; 4]; 4];
     for (k, page) in random_pages().enumerate() {
         let laid = laid_out(&page, None);
         for place in &laid.annotations {
@@ -107,11 +151,11 @@ fn random_pages_keep_the_laws() {
                 Some(Hidden::NoRoom) => 2,
                 Some(_) => 3,
             };
-            count[k % 3][reason] += 1;
+            count[k % 4][reason] += 1;
         }
     }
-    // Frames with room, frames narrower than most hulls, and columns that are full.
-    assert_eq!(count, [[3025, 0, 2, 0], [1768, 309, 744, 182], [2873, 1, 432, 0]]);
+    // Frames with room, frames narrower than most hulls, columns that are full, and obstacles.
+    assert_eq!(count, [[3167, 0, 1, 0], [949, 6, 1815, 142], [2601, 9, 480, 0], [3245, 2, 3, 0]]);
 }
 
 /// Labels of one height that have room beside the hull are all shown up to the columns' height, whatever their anchors.
@@ -183,13 +227,17 @@ fn columns_stand_beside_the_hull() {
     assert_eq!(laid.relocations, []);
 }
 
+/// A gap of 1/40 of the frame's diagonal, and a label of 60: each side of the hull needs 60 and the gap.
 #[test]
-fn a_column_without_room_stands_at_the_frame() {
+fn a_label_without_room_beside_the_hull_is_hidden() {
     let mut page = page(vec![label(460.0, 400.0, 1.0), label(340.0, 400.0, 1.0)], square());
-    page.frame = [DVec2::new(260.0, 0.0), DVec2::new(560.0, 600.0)];
+    page.frame = [DVec2::new(260.0, 0.0), DVec2::new(600.0, 600.0)];
     let laid = laid_out(&page, None);
-    assert_eq!([0, 1].map(|i| laid.annotations[i].corners.map(|corner| corner.x)), [[500.0, 560.0], [260.0, 320.0]]);
-    assert_eq!(laid.annotations[0].leader[1].x, 500.0);
+    // Both stand at the right, where there is room.
+    assert!(kept(&laid) == 2 && laid.annotations.iter().all(|place| !is_left(place)));
+    page.frame[1].x = 560.0;
+    let hidden = laid_out(&page, None).annotations.iter().map(|place| place.hidden).collect::<Vec<_>>();
+    assert_eq!(hidden, [Some(Hidden::NoRoom); 2]);
 }
 
 /// The margin is 5 % of the width 200.
@@ -279,12 +327,33 @@ fn hard_cases() {
     }
 }
 
-/// An obstacle takes the strip of the frame that costs least, and boxes stand beside the strip, also those of anchors in it.
+/// An obstacle in the corner of a column takes its own heights from this column alone, and a wide one that the column's
+/// labels do not reach takes nothing.
 #[test]
 fn columns_leave_obstacles_free() {
-    let mut page = page(vec![label(460.0, 590.0, 1.0), label(340.0, 500.0, 1.0)], vec![]);
-    page.obstacles = vec![[DVec2::new(20.0, 570.0), DVec2::new(200.0, 590.0)]];
-    let laid = columns(&page, None);
-    assert_eq!(laid.annotations[0].corners[1].y, 570.0);
-    assert_eq!(kept(&laid), 2);
+    let mut page = page(vec![label(460.0, 590.0, 1.0), label(340.0, 590.0, 1.0)], square());
+    let y = |page: &AnnotatedPage| {
+        laid_out(page, None).annotations.iter().map(|place| place.corners[1].y).collect::<Vec<_>>()
+    };
+    page.obstacles = vec![[DVec2::new(220.0, 570.0), DVec2::new(300.0, 590.0)]];
+    assert_eq!(y(&page), [600.0, 570.0]);
+    page.obstacles = vec![[DVec2::new(0.0, 570.0), DVec2::new(210.0, 600.0)]];
+    assert_eq!(y(&page), [600.0, 600.0]);
+    // A wider label of the column reaches the obstacle.
+    page.annotations.push(Annotation { size: DVec2::new(80.0, 20.0), ..label(330.0, 300.0, 1.0) });
+    assert_eq!(y(&page), [600.0, 570.0, 310.0]);
+}
+
+/// A legend, a bar, a triad and letters take only what they cover: a page of seven labels keeps them all.
+#[test]
+fn a_full_margin_hides_no_label_that_has_room() {
+    for scene in 0..200 {
+        let free = AnnotatedPage { frame: WIDE, ..random_page(scene) };
+        let mut page = free.clone();
+        page.annotations.truncate(7);
+        page.obstacles = (0..4).map(|i| obstacle(scene, i)).collect();
+        let laid = laid_out(&page, None);
+        // Each column has at most two obstacles of 160. Seven labels take at most 210 of its 600.
+        assert_eq!(kept(&laid), page.annotations.len(), "{scene}");
+    }
 }
