@@ -33,8 +33,8 @@ const LARGEST: f64 = 1e150;
 /// anchor is beyond the middle by 5 % of the bounding box's width. If labels that are shown have conflicts in these
 /// columns, all columns are those without a previous layout. A layout from a finished one changes nothing.
 ///
-/// Anchors may move while the labels that are shown, their columns, their free intervals and their order stay. Then the sum of the boxes'
-/// squared vertical motions is at most the sum of the anchors' squared vertical motions.
+/// Anchors may move while the labels that are shown, their columns, their free intervals and their order stay. Then the
+/// sum of the boxes' squared vertical motions is at most the sum of the anchors' squared vertical motions.
 pub fn columns(page: &AnnotatedPage, previous: Option<&AnnotationLayout>) -> AnnotationLayout {
     let all = &page.annotations;
     let mut places: Vec<PlacedAnnotation> = all.iter().map(|annotation| unplaced(annotation, page.frame)).collect();
