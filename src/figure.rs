@@ -199,7 +199,7 @@ impl<'a> FigureLayout<'a> {
             pictures.extend(panel.picture.map(|image| PlacedPicture { corner, size, image }));
             let corners = [corner, [corner[0] + size[0], corner[1] + size[1]]].map(|at| self.on_page(at));
             if is_inset {
-                marks.cut_out(corners);
+                marks.cut_out(corners, &corners_of);
             }
             if let Some(mut drawn) = panel.marks {
                 drawn.shift(corners[0]);
@@ -340,4 +340,10 @@ fn with_insets(
 /// The failure of a page that cannot be painted.
 fn wrong(error: &OutputError, figure: &Figure) -> Failure {
     Failure::picture(error, figure.given.position("figure.width"))
+}
+
+/// The upper left and the lower right corner of a text.
+fn corners_of(text: &Text) -> [DVec2; 2] {
+    let extent = extent(&text.characters, text.size);
+    [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
 }
