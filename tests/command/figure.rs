@@ -109,3 +109,13 @@ fn faults_of_a_figure_are_told() {
     let said = folder.refused("figure figure.toml --set figure.dpi=1e6 -o b.png");
     assert!(said.contains("key figure.width"), "{said}");
 }
+
+/// In a figure a template gets its volume from the panel.
+#[test]
+fn a_template_in_a_figure_asks_for_the_panels_volume() {
+    let folder = Folder::new();
+    folder.write("template.toml", "drypoint = 1\n");
+    figure(&folder, "", "[[panel]]\nscene = \"template.toml\"\n");
+    let said = folder.refused("figure figure.toml -o page.png");
+    assert!(said.contains("  try: name a volume by the key panel[0].volume, or write file = "), "{said}");
+}
