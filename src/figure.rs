@@ -3,6 +3,10 @@
 //! A figure is arranged from the sizes of its panels. Each panel is then drawn in its own place's size, and all pictures
 //! and marks are put on one page, which is written like the page of one scene.
 
+mod insets;
+mod page_size;
+mod ruler;
+
 use crate::Failure;
 use crate::annotating::plain;
 use crate::drawing::{Drawing, WriteReport, paint_picture, write_picture};
@@ -11,14 +15,17 @@ use crate::job::{Job, background_color, figure_provenance};
 use crate::marking::{Marking, add};
 use drypoint_output::read::Image;
 use drypoint_output::sheet::{PlacedPicture, lay_out};
-use drypoint_output::text::{font::extent, wrapped};
+use drypoint_output::text::font::extent;
 use drypoint_output::{OutputError, paint};
 use drypoint_reference::figure::{PanelGrid, PanelSize};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{INCH, Layer, Marks, Page, Pen, Text};
+use drypoint_scene::marks::{Layer, Marks, Page, Pen, Text};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::{Background, Corner, Figure, Length, Panel, PictureSettings, Scene};
+use drypoint_scene::tables::{Background, Figure, Length, PictureSettings, Scene};
+use insets::with_insets;
+use page_size::{check_columns, check_pixels, key_of_large};
+use ruler::{Ruler, TextBlock};
 use std::path::Path;
 
 /// The size of the title, in sizes of the text.
@@ -98,12 +105,13 @@ impl<'a> FigureLayout<'a> {
     /// Arranges a figure. `sizes` has width and height, in any unit, of the pictures of [`Figure::sources`].
     ///
     /// # Errors
-    /// A page of no or too many pixels.
+    /// A page of too many pixels, narrow columns, or an inset that does not fit.
     pub fn new(figure: &'a Figure, sizes: &[[usize; 2]]) -> Result<Self, Failure> {
         let settings = &figure.figure;
-        let ruler = Ruler::new(figure);
-        let grid =
-            PanelGrid { width: ruler.width, columns: settings.columns, gap: ruler.pixels(ruler.mm(settings.gap)) };
+        let ruler = Ruler::new(figure)?;
+        let gap = ruler.pixels(ruler.mm(settings.gap)).min(paint::MOST_PIXELS);
+        let grid = PanelGrid { width: ruler.width, columns: settings.columns, gap };
+        check_columns(figure, &grid)?;
         let spans: Vec<usize> = figure.panels.iter().map(|panel| panel.columns).collect();
         let widths = grid.widths(&spans);
         let size = ruler.mm(settings.size);
@@ -118,22 +126,21 @@ impl<'a> FigureLayout<'a> {
             .collect();
         // Panels in rows, with their insets.
         let mut sizes = sizes.iter().copied();
-        let panels: Vec<Vec<PanelPlace>> = figure
-            .panels
-            .iter()
-            .zip(&widths)
-            .map(|(panel, &width)| with_insets(panel, width, grid.gap / 2, &mut sizes))
-            .collect();
+        let each = widths.iter().enumerate();
+        let panels: Vec<Vec<PanelPlace>> = each
+            .map(|(i, &width)| with_insets(figure, i, width, grid.gap / 2, &mut sizes))
+            .collect::<Result<_, _>>()?;
         let sized = panels.iter().zip(&spans).zip(&captions).map(|((places, &columns), caption)| PanelSize {
             columns,
             height: places[0].size[1],
             text: caption.height,
         });
         let (placed, bottom) = grid.place(&sized.collect::<Vec<_>>(), title.height);
-        let in_pixels = [grid.width, bottom + caption.height];
+        let in_pixels = [grid.width, bottom.saturating_add(caption.height)];
         let margin = figure.page.as_ref().map_or(0.0, |page| ruler.mm(page.margin));
         let extent = DVec2::from(in_pixels.map(|n| n as f64)) * ruler.pixel;
         let page = Page::in_millimetres(extent, margin, settings.dpi);
+        check_pixels(figure, (page.size * page.pixels_per_mm()).element_product())?;
         paint::pixels(&page).map_err(|error| wrong(&error, figure))?;
         // Everything at its place.
         let (places, texts) = (Vec::new(), Vec::new());
@@ -266,80 +273,9 @@ impl<'a> FigureLayout<'a> {
     }
 }
 
-/// Lengths of a figure in mm and in pixels.
-struct Ruler {
-    dpi: f64,
-    /// Width of the figure in pixels.
-    width: usize,
-    /// Width and height of a pixel, in mm.
-    pixel: DVec2,
-}
-
-/// Text in lines.
-struct TextBlock {
-    lines: Vec<String>,
-    size: f64,
-    /// Height in pixels, with the space above it; 0 without text.
-    height: usize,
-}
-
-impl Ruler {
-    fn new(figure: &Figure) -> Self {
-        let ruler = Self { dpi: figure.figure.dpi, width: 1, pixel: DVec2::splat(INCH / figure.figure.dpi) };
-        let mm = ruler.mm(figure.figure.width);
-        let width = ruler.pixels(mm).max(1);
-        // A width in mm is exact on the page, and pixels are stretched to fill it.
-        Self { width, pixel: DVec2::new(mm / width as f64, ruler.pixel.y), ..ruler }
-    }
-
-    fn mm(&self, length: Length) -> f64 {
-        Page::in_pixels([1, 1], 0.0, self.dpi).length(length).unwrap_or_default()
-    }
-
-    fn pixels(&self, mm: f64) -> usize {
-        (mm / INCH * self.dpi).round_ties_even() as usize
-    }
-
-    /// Breaks text into lines of at most a width in pixels.
-    fn block(&self, text: &str, size: f64, width: usize) -> TextBlock {
-        let lines = wrapped(text, size, width as f64 * self.pixel.x);
-        let line = extent("", size);
-        let mm = lines.len() as f64 * (line.ascent + line.descent) + ABOVE_TEXT * size;
-        let height = if lines.is_empty() { 0 } else { (mm / self.pixel.y).ceil() as usize };
-        TextBlock { lines, size, height }
-    }
-}
-
-/// A panel at the origin, then its insets, `inset` pixels from its edges. `sizes` gives the proportions of the pictures.
-fn with_insets(
-    panel: &Panel,
-    width: usize,
-    inset: usize,
-    sizes: &mut dyn Iterator<Item = [usize; 2]>,
-) -> Vec<PanelPlace> {
-    let mut scaled = |width: usize| {
-        let [w, h] = sizes.next().unwrap_or([1, 1]).map(|n| n.max(1) as f64);
-        [width, (width as f64 * h / w).round().max(1.0) as usize]
-    };
-    let own = scaled(width);
-    let mut places = vec![PanelPlace { corner: [0, 0], size: own, is_inset: false }];
-    for table in &panel.insets {
-        let size = scaled(((width as f64 * table.share).round() as usize).max(1));
-        let [right, bottom] = [0, 1].map(|axis| own[axis].saturating_sub(size[axis] + inset));
-        let corner = match table.corner {
-            Corner::TopLeft => [inset, inset],
-            Corner::TopRight => [right, inset],
-            Corner::BottomLeft => [inset, bottom],
-            Corner::BottomRight => [right, bottom],
-        };
-        places.push(PanelPlace { corner, size, is_inset: true });
-    }
-    places
-}
-
 /// The failure of a page that cannot be painted.
 fn wrong(error: &OutputError, figure: &Figure) -> Failure {
-    Failure::picture(error, figure.given.position("figure.width"))
+    Failure::picture(error, figure.given.position(key_of_large(figure)))
 }
 
 /// The upper left and the lower right corner of a text.
