@@ -8,7 +8,7 @@ mod page_size;
 mod ruler;
 
 use crate::Failure;
-use crate::annotating::plain;
+use crate::annotating::{missing, plain};
 use crate::drawing::{Drawing, WriteReport, paint_picture, write_picture};
 use crate::gpu::Gpu;
 use crate::job::{Job, background_color, figure_provenance};
@@ -74,20 +74,23 @@ pub struct DrawnPanel {
 }
 
 impl DrawnPanel {
-    /// Draws the first frame of a scene, which was fitted to its place. A graphics card, if there is one, draws the volume.
-    /// `progress` is that of [`Drawing::frame`].
+    /// Draws the first frame of a scene, which was fitted to its place. Labels stand beside insets. A graphics card, if there
+    /// is one, draws the volume. `progress` is that of [`Drawing::frame`].
     ///
     /// # Errors
     /// The errors of [`Drawing::on`] and [`Drawing::frame`], and no memory for the pixels.
     pub fn draw(
         job: &Job,
         layout: &FigureLayout<'_>,
+        place: &PanelPlace,
         card: Option<&Gpu>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Self, Failure> {
         let mut counts = Counts::default();
         let marking = Marking::new(job, &mut counts, &|_| ())?;
-        let (frame, _) = Drawing::on(job, &marking, card, &mut counts)?.frame(0, progress)?;
+        let mut drawing = Drawing::on(job, &marking, card, &mut counts)?;
+        drawing.keep_labels_off(layout.insets_on(place));
+        let (frame, _) = drawing.frame(0, progress)?;
         let background = background_color(&job.scene).filter(|color| *color != layout.figure.figure.background);
         let picture = match (&frame.picture, background.filter(|_| !layout.is_plotted())) {
             (Some(picture), _) => Some(Image::from(picture)),
@@ -178,14 +181,25 @@ impl<'a> FigureLayout<'a> {
         }
     }
 
-    /// Puts what the panels show on one page, and writes it.
+    /// The corners of the insets over a panel, in mm of the panel's page.
+    fn insets_on(&self, place: &PanelPlace) -> Vec<[DVec2; 2]> {
+        let after = self.places.iter().skip_while(|other| *other != place).skip(1);
+        let insets = after.take_while(|other| other.is_inset);
+        let from = |at| self.on_page(at) - self.on_page(place.corner);
+        insets.map(|PanelPlace { corner: [x, y], size: [w, h], .. }| [[*x, *y], [x + w, y + h]].map(from)).collect()
+    }
+
+    /// Puts what the panels show on one page, and writes it. The report's notes begin with what is left out.
     ///
     /// # Errors
     /// A picture without colours, and the errors of [`Frame::write`](crate::drawing::Frame::write).
     pub fn write_panels(&self, panels: Vec<DrawnPanel>, path: &Path) -> Result<WriteReport, Failure> {
         let provenances: Vec<_> = panels.iter().filter_map(|panel| panel.provenance.clone()).collect();
-        let (picture, marks) = self.compose(panels)?;
-        write_picture(picture, marks, &self.scene(), figure_provenance(self.figure, &provenances), path)
+        let (picture, marks, notes) = self.compose(panels)?;
+        let provenance = figure_provenance(self.figure, &provenances);
+        let mut report = write_picture(picture, marks, &self.scene(), provenance, path)?;
+        report.notes.splice(0..0, notes);
+        Ok(report)
     }
 
     /// Paints what the panels show on one page.
@@ -193,20 +207,24 @@ impl<'a> FigureLayout<'a> {
     /// # Errors
     /// A picture without colours, and the errors of [`Frame::painted`](crate::drawing::Frame::painted).
     pub fn paint_panels(&self, panels: Vec<DrawnPanel>) -> Result<Picture, Failure> {
-        let (picture, marks) = self.compose(panels)?;
+        let (picture, marks, _) = self.compose(panels)?;
         paint_picture(picture, &marks, &self.scene())
     }
 
-    /// The pixels and the marks of the page. Without pixels of panels there are none.
-    fn compose(&self, panels: Vec<DrawnPanel>) -> Result<(Option<Picture>, Marks), Failure> {
-        let mut pictures = Vec::new();
+    /// The pixels and the marks of the page, and what is left out, a sentence each. Without pixels of panels there are none.
+    fn compose(&self, panels: Vec<DrawnPanel>) -> Result<(Option<Picture>, Marks, Vec<String>), Failure> {
+        let (mut pictures, mut notes) = (Vec::new(), Vec::new());
         let mut marks = Marks { page: self.page, layers: Vec::new() };
-        for (place, panel) in self.places.iter().zip(panels) {
+        for ((place, panel), (table, _)) in self.places.iter().zip(panels).zip(self.figure.sources()) {
             let PanelPlace { corner, size, is_inset } = *place;
             pictures.extend(panel.picture.map(|image| PlacedPicture { corner, size, image }));
             let corners = [corner, [corner[0] + size[0], corner[1] + size[1]]].map(|at| self.on_page(at));
             if is_inset {
-                marks.cut_out(corners, &corners_of);
+                let table = table.split('.').next().unwrap_or_default();
+                let covered = marks.cut_out(corners, &corners_of).into_iter();
+                notes.extend(covered.map(|Text { characters, .. }| {
+                    format!("{table}: the text {characters:?} is left out: an inset lies over it")
+                }));
             }
             if let Some(mut drawn) = panel.marks {
                 drawn.shift(corners[0]);
@@ -221,11 +239,12 @@ impl<'a> FigureLayout<'a> {
                 );
             }
         }
+        notes.extend(missing(&self.texts, self.is_plotted()));
         add(&mut marks.layers, Layer { texts: self.texts.clone(), ..Layer::new(self.pen()) });
         marks.settle();
         let background = self.figure.figure.background;
         let picture = (!pictures.is_empty()).then(|| lay_out(self.size, background, &pictures)).transpose();
-        Ok((picture.map_err(|error| wrong(&error, self.figure))?, marks))
+        Ok((picture.map_err(|error| wrong(&error, self.figure))?, marks, notes))
     }
 
     /// A scene with the page of the figure, by which it is written.
@@ -283,3 +302,6 @@ fn corners_of(text: &Text) -> [DVec2; 2] {
     let extent = extent(&text.characters, text.size);
     [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
 }
+
+#[cfg(test)]
+mod tests;

@@ -137,7 +137,7 @@ impl PanelInput {
         let progress = Progress::new(talk, format_args!("{}: {table}", figure.display()));
         let job = input.load(RenderTarget::Picture)?;
         input::tell(talk, &job);
-        let panel = DrawnPanel::draw(&job, layout, gpu, &|share| progress.hear(share))?;
+        let panel = DrawnPanel::draw(&job, layout, place, gpu, &|share| progress.hear(share))?;
         panel.notes.iter().for_each(|line| note(talk, format_args!("{table}: {line}")));
         Ok(panel)
     }

@@ -189,3 +189,20 @@ fn a_template_in_a_figure_asks_for_the_panels_volume() {
     let said = folder.refused("figure figure.toml -o page.png");
     assert!(said.contains("  try: name a volume by the key panel[0].volume, or write file = "), "{said}");
 }
+
+/// Letters that are missing are told, and a word that is wider than its panel is broken.
+#[test]
+fn texts_of_a_figure_are_whole_or_told() {
+    let folder = Folder::new();
+    folder.scene("");
+    let panel = "[[panel]]\nscene = \"scene.toml\"\ncaption = \"Donaudampfschifffahrtsgesellschaft \u{732b}\"\n";
+    figure(&folder, "width = \"20 mm\"\ncolumns = 1", panel);
+    let said = folder.line("figure figure.toml -o page.svg");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let note = "boxes stand for the characters \"\u{732b}\", which the letters lack\n";
+    assert!(said.err.contains(note), "{}", said.err);
+    let svg = String::from_utf8(folder.read("page.svg")).unwrap();
+    let lines: Vec<&str> = svg.split("</text>").filter_map(|text| text.rsplit('>').next()).collect();
+    assert!(lines.concat().contains("Donaudampfschifffahrtsgesellschaft"), "{lines:?}");
+    assert!(lines.iter().all(|line| !line.contains("Donaudampfschifffahrtsgesellschaft")), "{lines:?}");
+}
