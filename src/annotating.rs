@@ -14,7 +14,7 @@ use drypoint_reference::ray::Renderer;
 use drypoint_reference::volumeshop::conventions::{ArrowCurve, Fan, edge_points, edges};
 use drypoint_scene::annotations::AnnotationLayout;
 use drypoint_scene::glam::{DVec2, DVec3};
-use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen};
+use drypoint_scene::marks::{Area, Layer, Marks, Page, Pen, Text};
 use drypoint_scene::picture::Overlay;
 use drypoint_scene::tables::{
     AnnotatedPlace, Annotations, ArrowEnds, ArrowTable, BoxShown, BoxTable, FanTable, Length, LineStyle, ObjectTable,
@@ -39,6 +39,8 @@ pub(crate) struct Annotating<'a> {
     page: Page,
     /// The objects where they are in the frame.
     pub(crate) objects: Vec<ObjectTable>,
+    /// Rectangles that pictures of a figure cover, in mm.
+    pub(crate) insets: Vec<[DVec2; 2]>,
     /// The places that labels lead to, found in the first frame.
     anchors: Option<Vec<Anchored>>,
     /// The labels of the frame before.
@@ -65,6 +67,14 @@ fn words(name: &str) -> String {
     name.replace('_', " ")
 }
 
+/// The characters of texts that no letters are drawn for, in a sentence; none if all are.
+pub(crate) fn missing<'t>(texts: impl IntoIterator<Item = &'t Text>, is_plotted: bool) -> Option<String> {
+    let all: String = texts.into_iter().map(|text| text.characters.as_str()).collect();
+    let missing = if is_plotted { missing_strokes(&all) } else { missing_characters(&all) };
+    let missing: String = missing.into_iter().collect();
+    (!missing.is_empty()).then(|| format!("boxes stand for the characters {missing:?}, which the letters lack"))
+}
+
 impl<'a> Annotating<'a> {
     /// Makes frames of a job's annotations. Returns none if there are none, or if the picture lacks the layer `beauty`,
     /// over which they are drawn.
@@ -83,7 +93,7 @@ impl<'a> Annotating<'a> {
         }
         let (rows, page) = (legend::rows(job)?, Page::of(&job.scene));
         let objects = job.scene.objects.clone();
-        Ok(Some(Self { job, tables, rows, page, objects, anchors: None, previous: None }))
+        Ok(Some(Self { job, tables, rows, page, objects, insets: Vec::new(), anchors: None, previous: None }))
     }
 
     /// Returns the annotations that a camera sees. `renderer` is at this camera; without it nothing hides a line.
@@ -99,25 +109,17 @@ impl<'a> Annotating<'a> {
         let margin = self.margin(view, &mut room, &mut notes)?;
         let mut ways = Marks { page: self.page, layers: ways };
         ways.settle();
-        let obstacles = room.taken.into_iter().chain(ways.layers.iter().flat_map(lines::rectangles)).collect();
+        let of_ways = ways.layers.iter().flat_map(lines::rectangles);
+        let obstacles = room.taken.into_iter().chain(of_ways).chain(self.insets.iter().copied()).collect();
         layers.extend(ways.layers);
         layers.extend(self.labels(view, renderer, obstacles, &mut notes)?);
         layers.extend(margin);
         let (layer, overlays) = legend.map(|legend| (legend.layer, legend.spheres)).unzip();
         layers.extend(layer);
-        notes.extend(self.missing(&layers));
+        notes.extend(missing(layers.iter().flat_map(|layer| &layer.texts), self.is_plotted()));
         let mut marks = Marks { page: self.page, layers };
         marks.settle();
         Ok(AnnotationFrame { layers: marks.layers, overlays: overlays.unwrap_or_default(), notes })
-    }
-
-    /// The characters that no letters are drawn for, in a sentence; none if all are.
-    fn missing(&self, layers: &[Layer]) -> Option<String> {
-        let texts = layers.iter().flat_map(|layer| &layer.texts).map(|text| text.characters.as_str());
-        let all = texts.collect::<Vec<_>>().concat();
-        let missing = if self.is_plotted() { missing_strokes(&all) } else { missing_characters(&all) };
-        let missing: String = missing.into_iter().collect();
-        (!missing.is_empty()).then(|| format!("boxes stand for the characters {missing:?}, which the letters lack"))
     }
 
     /// Whether a plotter draws the page.

@@ -13,6 +13,7 @@ use drypoint_output::paint::{fragments, overlay};
 use drypoint_reference::ray::Renderer;
 use drypoint_scene::color::Rgba;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec2;
 use drypoint_scene::marks::{Marks, Page, mark_counts};
 use drypoint_scene::picture::{Layer, LayerKind, Picture, Provenance};
 use drypoint_scene::plan::Plan;
@@ -111,6 +112,13 @@ impl<'a> Drawing<'a> {
         let is_on_card = renderer.as_ref().is_some_and(|renderer| renderer.reference().is_none());
         let sight = (asks_rays && is_on_card).then(|| job.renderer()).transpose()?;
         Ok(Self { job, first, orbit, shot, prepared: Some(0), draws_volume, renderer, marks, annotations, sight })
+    }
+
+    /// Keeps labels off rectangles of the page, in mm.
+    pub(crate) fn keep_labels_off(&mut self, rectangles: Vec<[DVec2; 2]>) {
+        if let Some(annotations) = &mut self.annotations {
+            annotations.insets = rectangles;
+        }
     }
 
     /// Returns the number of frames: those of `[orbit]`, or one.

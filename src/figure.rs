@@ -3,22 +3,29 @@
 //! A figure is arranged from the sizes of its panels. Each panel is then drawn in its own place's size, and all pictures
 //! and marks are put on one page, which is written like the page of one scene.
 
+mod insets;
+mod page_size;
+mod ruler;
+
 use crate::Failure;
-use crate::annotating::plain;
+use crate::annotating::{missing, plain};
 use crate::drawing::{Drawing, WriteReport, paint_picture, write_picture};
 use crate::gpu::Gpu;
 use crate::job::{Job, background_color, figure_provenance};
 use crate::marking::{Marking, add};
 use drypoint_output::read::Image;
 use drypoint_output::sheet::{PlacedPicture, lay_out};
-use drypoint_output::text::{font::extent, wrapped};
+use drypoint_output::text::font::extent;
 use drypoint_output::{OutputError, paint};
 use drypoint_reference::figure::{PanelGrid, PanelSize};
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::DVec2;
-use drypoint_scene::marks::{INCH, Layer, Marks, Page, Pen, Text};
+use drypoint_scene::marks::{Layer, Marks, Page, Pen, Text};
 use drypoint_scene::picture::{LayerKind, Picture, Provenance};
-use drypoint_scene::tables::{Background, Corner, Figure, Length, Panel, PictureSettings, Scene};
+use drypoint_scene::tables::{Background, Figure, Length, PictureSettings, Scene};
+use insets::with_insets;
+use page_size::{check_columns, check_pixels, key_of_large};
+use ruler::{Ruler, TextBlock};
 use std::path::Path;
 
 /// The size of the title, in sizes of the text.
@@ -67,20 +74,23 @@ pub struct DrawnPanel {
 }
 
 impl DrawnPanel {
-    /// Draws the first frame of a scene, which was fitted to its place. A graphics card, if there is one, draws the volume.
-    /// `progress` is that of [`Drawing::frame`].
+    /// Draws the first frame of a scene, which was fitted to its place. Labels stand beside insets. A graphics card, if there
+    /// is one, draws the volume. `progress` is that of [`Drawing::frame`].
     ///
     /// # Errors
     /// The errors of [`Drawing::on`] and [`Drawing::frame`], and no memory for the pixels.
     pub fn draw(
         job: &Job,
         layout: &FigureLayout<'_>,
+        place: &PanelPlace,
         card: Option<&Gpu>,
         progress: &(dyn Fn(f64) + Sync),
     ) -> Result<Self, Failure> {
         let mut counts = Counts::default();
         let marking = Marking::new(job, &mut counts, &|_| ())?;
-        let (frame, _) = Drawing::on(job, &marking, card, &mut counts)?.frame(0, progress)?;
+        let mut drawing = Drawing::on(job, &marking, card, &mut counts)?;
+        drawing.keep_labels_off(layout.insets_on(place));
+        let (frame, _) = drawing.frame(0, progress)?;
         let background = background_color(&job.scene).filter(|color| *color != layout.figure.figure.background);
         let picture = match (&frame.picture, background.filter(|_| !layout.is_plotted())) {
             (Some(picture), _) => Some(Image::from(picture)),
@@ -98,12 +108,13 @@ impl<'a> FigureLayout<'a> {
     /// Arranges a figure. `sizes` has width and height, in any unit, of the pictures of [`Figure::sources`].
     ///
     /// # Errors
-    /// A page of no or too many pixels.
+    /// A page of too many pixels, narrow columns, or an inset that does not fit.
     pub fn new(figure: &'a Figure, sizes: &[[usize; 2]]) -> Result<Self, Failure> {
         let settings = &figure.figure;
-        let ruler = Ruler::new(figure);
-        let grid =
-            PanelGrid { width: ruler.width, columns: settings.columns, gap: ruler.pixels(ruler.mm(settings.gap)) };
+        let ruler = Ruler::new(figure)?;
+        let gap = ruler.pixels(ruler.mm(settings.gap)).min(paint::MOST_PIXELS);
+        let grid = PanelGrid { width: ruler.width, columns: settings.columns, gap };
+        check_columns(figure, &grid)?;
         let spans: Vec<usize> = figure.panels.iter().map(|panel| panel.columns).collect();
         let widths = grid.widths(&spans);
         let size = ruler.mm(settings.size);
@@ -118,22 +129,21 @@ impl<'a> FigureLayout<'a> {
             .collect();
         // Panels in rows, with their insets.
         let mut sizes = sizes.iter().copied();
-        let panels: Vec<Vec<PanelPlace>> = figure
-            .panels
-            .iter()
-            .zip(&widths)
-            .map(|(panel, &width)| with_insets(panel, width, grid.gap / 2, &mut sizes))
-            .collect();
+        let each = widths.iter().enumerate();
+        let panels: Vec<Vec<PanelPlace>> = each
+            .map(|(i, &width)| with_insets(figure, i, width, grid.gap / 2, &mut sizes))
+            .collect::<Result<_, _>>()?;
         let sized = panels.iter().zip(&spans).zip(&captions).map(|((places, &columns), caption)| PanelSize {
             columns,
             height: places[0].size[1],
             text: caption.height,
         });
         let (placed, bottom) = grid.place(&sized.collect::<Vec<_>>(), title.height);
-        let in_pixels = [grid.width, bottom + caption.height];
+        let in_pixels = [grid.width, bottom.saturating_add(caption.height)];
         let margin = figure.page.as_ref().map_or(0.0, |page| ruler.mm(page.margin));
         let extent = DVec2::from(in_pixels.map(|n| n as f64)) * ruler.pixel;
         let page = Page::in_millimetres(extent, margin, settings.dpi);
+        check_pixels(figure, (page.size * page.pixels_per_mm()).element_product())?;
         paint::pixels(&page).map_err(|error| wrong(&error, figure))?;
         // Everything at its place.
         let (places, texts) = (Vec::new(), Vec::new());
@@ -171,14 +181,25 @@ impl<'a> FigureLayout<'a> {
         }
     }
 
-    /// Puts what the panels show on one page, and writes it.
+    /// The corners of the insets over a panel, in mm of the panel's page.
+    fn insets_on(&self, place: &PanelPlace) -> Vec<[DVec2; 2]> {
+        let after = self.places.iter().skip_while(|other| *other != place).skip(1);
+        let insets = after.take_while(|other| other.is_inset);
+        let from = |at| self.on_page(at) - self.on_page(place.corner);
+        insets.map(|PanelPlace { corner: [x, y], size: [w, h], .. }| [[*x, *y], [x + w, y + h]].map(from)).collect()
+    }
+
+    /// Puts what the panels show on one page, and writes it. The report's notes begin with what is left out.
     ///
     /// # Errors
     /// A picture without colours, and the errors of [`Frame::write`](crate::drawing::Frame::write).
     pub fn write_panels(&self, panels: Vec<DrawnPanel>, path: &Path) -> Result<WriteReport, Failure> {
         let provenances: Vec<_> = panels.iter().filter_map(|panel| panel.provenance.clone()).collect();
-        let (picture, marks) = self.compose(panels)?;
-        write_picture(picture, marks, &self.scene(), figure_provenance(self.figure, &provenances), path)
+        let (picture, marks, notes) = self.compose(panels)?;
+        let provenance = figure_provenance(self.figure, &provenances);
+        let mut report = write_picture(picture, marks, &self.scene(), provenance, path)?;
+        report.notes.splice(0..0, notes);
+        Ok(report)
     }
 
     /// Paints what the panels show on one page.
@@ -186,20 +207,24 @@ impl<'a> FigureLayout<'a> {
     /// # Errors
     /// A picture without colours, and the errors of [`Frame::painted`](crate::drawing::Frame::painted).
     pub fn paint_panels(&self, panels: Vec<DrawnPanel>) -> Result<Picture, Failure> {
-        let (picture, marks) = self.compose(panels)?;
+        let (picture, marks, _) = self.compose(panels)?;
         paint_picture(picture, &marks, &self.scene())
     }
 
-    /// The pixels and the marks of the page. Without pixels of panels there are none.
-    fn compose(&self, panels: Vec<DrawnPanel>) -> Result<(Option<Picture>, Marks), Failure> {
-        let mut pictures = Vec::new();
+    /// The pixels and the marks of the page, and what is left out, a sentence each. Without pixels of panels there are none.
+    fn compose(&self, panels: Vec<DrawnPanel>) -> Result<(Option<Picture>, Marks, Vec<String>), Failure> {
+        let (mut pictures, mut notes) = (Vec::new(), Vec::new());
         let mut marks = Marks { page: self.page, layers: Vec::new() };
-        for (place, panel) in self.places.iter().zip(panels) {
+        for ((place, panel), (table, _)) in self.places.iter().zip(panels).zip(self.figure.sources()) {
             let PanelPlace { corner, size, is_inset } = *place;
             pictures.extend(panel.picture.map(|image| PlacedPicture { corner, size, image }));
             let corners = [corner, [corner[0] + size[0], corner[1] + size[1]]].map(|at| self.on_page(at));
             if is_inset {
-                marks.cut_out(corners);
+                let table = table.split('.').next().unwrap_or_default();
+                let covered = marks.cut_out(corners, &corners_of).into_iter();
+                notes.extend(covered.map(|Text { characters, .. }| {
+                    format!("{table}: the text {characters:?} is left out: an inset lies over it")
+                }));
             }
             if let Some(mut drawn) = panel.marks {
                 drawn.shift(corners[0]);
@@ -214,11 +239,12 @@ impl<'a> FigureLayout<'a> {
                 );
             }
         }
+        notes.extend(missing(&self.texts, self.is_plotted()));
         add(&mut marks.layers, Layer { texts: self.texts.clone(), ..Layer::new(self.pen()) });
         marks.settle();
         let background = self.figure.figure.background;
         let picture = (!pictures.is_empty()).then(|| lay_out(self.size, background, &pictures)).transpose();
-        Ok((picture.map_err(|error| wrong(&error, self.figure))?, marks))
+        Ok((picture.map_err(|error| wrong(&error, self.figure))?, marks, notes))
     }
 
     /// A scene with the page of the figure, by which it is written.
@@ -266,78 +292,16 @@ impl<'a> FigureLayout<'a> {
     }
 }
 
-/// Lengths of a figure in mm and in pixels.
-struct Ruler {
-    dpi: f64,
-    /// Width of the figure in pixels.
-    width: usize,
-    /// Width and height of a pixel, in mm.
-    pixel: DVec2,
-}
-
-/// Text in lines.
-struct TextBlock {
-    lines: Vec<String>,
-    size: f64,
-    /// Height in pixels, with the space above it; 0 without text.
-    height: usize,
-}
-
-impl Ruler {
-    fn new(figure: &Figure) -> Self {
-        let ruler = Self { dpi: figure.figure.dpi, width: 1, pixel: DVec2::splat(INCH / figure.figure.dpi) };
-        let mm = ruler.mm(figure.figure.width);
-        let width = ruler.pixels(mm).max(1);
-        // A width in mm is exact on the page, and pixels are stretched to fill it.
-        Self { width, pixel: DVec2::new(mm / width as f64, ruler.pixel.y), ..ruler }
-    }
-
-    fn mm(&self, length: Length) -> f64 {
-        Page::in_pixels([1, 1], 0.0, self.dpi).length(length).unwrap_or_default()
-    }
-
-    fn pixels(&self, mm: f64) -> usize {
-        (mm / INCH * self.dpi).round_ties_even() as usize
-    }
-
-    /// Breaks text into lines of at most a width in pixels.
-    fn block(&self, text: &str, size: f64, width: usize) -> TextBlock {
-        let lines = wrapped(text, size, width as f64 * self.pixel.x);
-        let line = extent("", size);
-        let mm = lines.len() as f64 * (line.ascent + line.descent) + ABOVE_TEXT * size;
-        let height = if lines.is_empty() { 0 } else { (mm / self.pixel.y).ceil() as usize };
-        TextBlock { lines, size, height }
-    }
-}
-
-/// A panel at the origin, then its insets, `inset` pixels from its edges. `sizes` gives the proportions of the pictures.
-fn with_insets(
-    panel: &Panel,
-    width: usize,
-    inset: usize,
-    sizes: &mut dyn Iterator<Item = [usize; 2]>,
-) -> Vec<PanelPlace> {
-    let mut scaled = |width: usize| {
-        let [w, h] = sizes.next().unwrap_or([1, 1]).map(|n| n.max(1) as f64);
-        [width, (width as f64 * h / w).round().max(1.0) as usize]
-    };
-    let own = scaled(width);
-    let mut places = vec![PanelPlace { corner: [0, 0], size: own, is_inset: false }];
-    for table in &panel.insets {
-        let size = scaled(((width as f64 * table.share).round() as usize).max(1));
-        let [right, bottom] = [0, 1].map(|axis| own[axis].saturating_sub(size[axis] + inset));
-        let corner = match table.corner {
-            Corner::TopLeft => [inset, inset],
-            Corner::TopRight => [right, inset],
-            Corner::BottomLeft => [inset, bottom],
-            Corner::BottomRight => [right, bottom],
-        };
-        places.push(PanelPlace { corner, size, is_inset: true });
-    }
-    places
-}
-
 /// The failure of a page that cannot be painted.
 fn wrong(error: &OutputError, figure: &Figure) -> Failure {
-    Failure::picture(error, figure.given.position("figure.width"))
+    Failure::picture(error, figure.given.position(key_of_large(figure)))
 }
+
+/// The upper left and the lower right corner of a text.
+fn corners_of(text: &Text) -> [DVec2; 2] {
+    let extent = extent(&text.characters, text.size);
+    [text.at - DVec2::new(0.0, extent.ascent), text.at + DVec2::new(extent.advance, extent.descent)]
+}
+
+#[cfg(test)]
+mod tests;

@@ -63,6 +63,9 @@ impl Annotating<'_> {
         let (width, dot, gap) = (layer.pen.width, self.mm(table.dot), self.mm(table.gap));
         let shown = found.annotations.iter().zip(&page.annotations).zip(anchors);
         for ((place, given), label) in shown.filter(|((place, _), _)| place.hidden.is_none()) {
+            if self.insets.iter().any(|[lo, hi]| given.anchor.cmpgt(*lo).all() && given.anchor.cmplt(*hi).all()) {
+                notes.push(format!("an inset lies over what the label {:?} names", label.text));
+            }
             let PlacedAnnotation { corners, leader, opacity, .. } = *place;
             let mut points = vec![given.anchor, leader[0], leader[1]];
             points.dedup();

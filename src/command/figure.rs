@@ -86,11 +86,15 @@ fn found(figure: &Figure, table: &str, source: &PanelSource) -> Result<PanelInpu
         (over.beauty_only, over.volume) = (true, source.volume.clone());
         input::find(source.scene.as_deref(), &over)
     });
-    // The keys of a panel stand in the figure, not on the command line.
+    // The keys and the volume of a panel stand in the figure, not on the command line.
     let position = || figure.given.position(&format!("{table}.set"));
-    let in_figure = |failure: Failure| match failure.place.strip_prefix("--set ") {
-        Some(set) => Failure { place: format!("{}, {set}", position()), ..failure },
-        None => failure,
+    let in_figure = |failure: Failure| {
+        let remedy =
+            failure.remedy.replace("after the scene on the command line", &format!("by the key {table}.volume"));
+        match failure.place.strip_prefix("--set ") {
+            Some(set) => Failure { place: format!("{}, {set}", position()), remedy, ..failure },
+            None => Failure { remedy, ..failure },
+        }
     };
     Ok(PanelInput::Scene(Box::new(scene.map_err(|failures| failures.map(in_figure))?)))
 }
@@ -133,7 +137,7 @@ impl PanelInput {
         let progress = Progress::new(talk, format_args!("{}: {table}", figure.display()));
         let job = input.load(RenderTarget::Picture)?;
         input::tell(talk, &job);
-        let panel = DrawnPanel::draw(&job, layout, gpu, &|share| progress.hear(share))?;
+        let panel = DrawnPanel::draw(&job, layout, place, gpu, &|share| progress.hear(share))?;
         panel.notes.iter().for_each(|line| note(talk, format_args!("{table}: {line}")));
         Ok(panel)
     }

@@ -107,5 +107,102 @@ fn faults_of_a_figure_are_told() {
     let said = folder.refused("figure figure.toml -o a.png");
     assert!(said.starts_with("error: this file is read too, and would be overwritten\n"), "{said}");
     let said = folder.refused("figure figure.toml --set figure.dpi=1e6 -o b.png");
-    assert!(said.contains("key figure.width"), "{said}");
+    assert!(said.contains("key figure.dpi\n"), "{said}");
+}
+
+/// An inset that is higher than its panel is refused with the largest share that fits, in hundredths.
+#[test]
+fn insets_stay_in_their_panels() {
+    let folder = Folder::new();
+    folder.scene("");
+    let panel = "[[panel]]\nscene = \"scene.toml\"\n";
+    // The panel is 120×80 px, and the inset's distance from its edges is 4 px.
+    let inset = "[[panel.inset]]\nscene = \"scene.toml\"\nset = [\"picture.size=[8, 16]\"]\nshare = 0.5\n";
+    figure(&folder, "width = \"12 mm\"\ncolumns = 1", &format!("{panel}{inset}"));
+    assert_eq!(
+        folder.refused("figure figure.toml -o page.png"),
+        "error: the inset is larger than its panel\n  at: figure.toml:13:1, key panel[0].inset[0].share\n  try: take a \
+         share of at most 0.32\n"
+    );
+    let with = |share: &str| {
+        figure(&folder, "width = \"12 mm\"\ncolumns = 1", &format!("{panel}{inset}").replace("0.5", share));
+        "figure figure.toml -o page.png"
+    };
+    folder.good(with("0.32"));
+    assert!(folder.refused(with("0.33")).contains("at most 0.32"));
+    assert!(folder.refused(with("0")).contains("write a number above 0 and of at most 1"));
+    assert!(folder.refused(with("1e-9")).starts_with("error: the inset has less than a pixel\n"));
+    // A distance from the edges that leaves no room.
+    with("0.32");
+    let said = folder.run(["figure", "figure.toml", "-o", "page.png", "--set", "figure.gap=\"1e308 mm\""]);
+    let remedy = "  try: take a smaller figure.gap, or a wider figure\n";
+    assert!(said.code == Some(2) && said.err.ends_with(remedy), "{}", said.err);
+}
+
+/// A size that cannot be drawn is refused at the key that is given.
+#[test]
+fn a_page_without_columns_or_of_too_many_pixels_is_refused() {
+    let folder = Folder::new();
+    folder.scene("");
+    let panels = "[[panel]]\nscene = \"scene.toml\"\n".repeat(2);
+    folder.write("figure.toml", format!("drypoint = 1\n[figure]\ntitle = \"title\"\n{panels}"));
+    let refused = |keys: &[&str]| {
+        let set = keys.iter().flat_map(|key| ["--set", key]);
+        let said = folder.run(["figure", "figure.toml", "-o", "page.png"].into_iter().chain(set));
+        assert_eq!(said.code, Some(2), "{keys:?}: {}", said.err);
+        said.err
+    };
+    // Without gaps of 47 px 60 columns of 2126 px have 35 px each.
+    for (keys, key) in [
+        (&["figure.gap=\"1e308 mm\""][..], "figure.gap"),
+        (&["figure.gap=\"180 mm\""], "figure.gap"),
+        (&["figure.columns=60", "figure.gap=\"4 mm\""], "figure.gap"),
+        (&["figure.columns=60"], "figure.columns"),
+        (&["figure.columns=60", "figure.width=\"12 px\""], "figure.width"),
+        (&["figure.width=\"1e-300 mm\""], "figure.width"),
+        (&["figure.dpi=1e-300"], "figure.dpi"),
+    ] {
+        let said = refused(keys);
+        assert!(said.starts_with("error: a column has fewer than 16 pixels\n"), "{said}");
+        assert!(said.contains(&format!(", key {key}\n")), "{keys:?}: {said}");
+    }
+    for (keys, key) in [
+        (&["figure.width=\"1e308 mm\""][..], "figure.width"),
+        (&["figure.width=\"200 mm\"", "figure.dpi=1e9"], "figure.dpi"),
+        (&["figure.dpi=1e308"], "figure.dpi"),
+        (&["figure.dpi=600", "figure.size=\"1e308 mm\""], "figure.size"),
+        (&["page.margin=\"1e308 mm\""], "page.margin"),
+        (&["figure.columns=1", "figure.gap=\"1e308 mm\""], "figure.gap"),
+    ] {
+        let said = refused(keys);
+        assert!(said.contains(" pixels, and a picture has at most 1073741824\n"), "{said}");
+        assert!(said.contains(&format!(", key {key}\n  try: make {key} smaller\n")), "{keys:?}: {said}");
+    }
+}
+
+/// In a figure a template gets its volume from the panel.
+#[test]
+fn a_template_in_a_figure_asks_for_the_panels_volume() {
+    let folder = Folder::new();
+    folder.write("template.toml", "drypoint = 1\n");
+    figure(&folder, "", "[[panel]]\nscene = \"template.toml\"\n");
+    let said = folder.refused("figure figure.toml -o page.png");
+    assert!(said.contains("  try: name a volume by the key panel[0].volume, or write file = "), "{said}");
+}
+
+/// Letters that are missing are told, and a word that is wider than its panel is broken.
+#[test]
+fn texts_of_a_figure_are_whole_or_told() {
+    let folder = Folder::new();
+    folder.scene("");
+    let panel = "[[panel]]\nscene = \"scene.toml\"\ncaption = \"Donaudampfschifffahrtsgesellschaft \u{732b}\"\n";
+    figure(&folder, "width = \"20 mm\"\ncolumns = 1", panel);
+    let said = folder.line("figure figure.toml -o page.svg");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let note = "boxes stand for the characters \"\u{732b}\", which the letters lack\n";
+    assert!(said.err.contains(note), "{}", said.err);
+    let svg = String::from_utf8(folder.read("page.svg")).unwrap();
+    let lines: Vec<&str> = svg.split("</text>").filter_map(|text| text.rsplit('>').next()).collect();
+    assert!(lines.concat().contains("Donaudampfschifffahrtsgesellschaft"), "{lines:?}");
+    assert!(lines.iter().all(|line| !line.contains("Donaudampfschifffahrtsgesellschaft")), "{lines:?}");
 }

@@ -55,7 +55,7 @@ impl PageWindow {
 }
 
 /// Largest number of pixels of a page, that of the largest picture.
-const LARGEST: usize = 1 << 30;
+pub const MOST_PIXELS: usize = 1 << 30;
 
 /// Bytes of memory a pixel of a page until it is written: four channels, and their codes twice.
 const PIXEL: usize = 4 * (8 + 2 + 2);
@@ -66,7 +66,7 @@ const PIXEL: usize = 4 * (8 + 2 + 2);
 /// [`OutputError::Layer`] for a page without a pixel, or of more than 2³⁰; [`OutputError::NoRoom`].
 pub fn pixels(page: &Page) -> Result<[usize; 2], OutputError> {
     let [width, height] = page.pixels();
-    if !width.checked_mul(height).is_some_and(|n| (1..=LARGEST).contains(&n)) {
+    if !width.checked_mul(height).is_some_and(|n| (1..=MOST_PIXELS).contains(&n)) {
         return Err(fault(LayerKind::Beauty, format!("a page of {width}x{height} pixels")));
     }
     room(None, [width, height], PIXEL)?;

@@ -97,6 +97,18 @@ pub fn missing_characters(characters: &str) -> Vec<char> {
     missing
 }
 
+/// Returns the parts of a text that a line break does not divide, in their order: a character with its marks, or a
+/// ligature.
+pub(crate) fn clusters(characters: &str) -> Vec<String> {
+    let own = shaped(characters).glyphs.into_iter().map(|glyph| glyph.characters);
+    let mut parts: Vec<String> = own.filter(|own| !own.is_empty()).collect();
+    // Glyphs stand from left to right, also in a line that runs from right to left.
+    if parts.concat() != printable(characters) {
+        parts.reverse();
+    }
+    parts
+}
+
 /// Returns the outlines of a line of text as closed polygons, in mm on the page, y down. They are filled by the nonzero
 /// rule.
 ///

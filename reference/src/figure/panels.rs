@@ -1,6 +1,6 @@
 //! The arrangement of a figure's panels in rows.
 
-/// The columns of a figure, in whole pixels.
+/// The columns of a figure, in whole pixels. Width and gap are at most 2³⁰.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PanelGrid {
     /// Width of the figure.
@@ -32,6 +32,12 @@ pub struct PlacedPanel {
 }
 
 impl PanelGrid {
+    /// Whether each column has at least some pixels.
+    pub fn has_columns_of(&self, least: usize) -> bool {
+        let gaps = self.gap.saturating_mul(self.columns - 1);
+        gaps.saturating_add(least.saturating_mul(self.columns)) <= self.width
+    }
+
     /// The left end of a column. Columns differ by at most one pixel, and the last one ends at the figure's width.
     fn left(&self, column: usize) -> usize {
         let whole = self.width + self.gap;
@@ -61,7 +67,7 @@ impl PanelGrid {
     }
 
     /// Places panels in rows below `top`, each picture in the middle of its row's height. Returns the places and the lower
-    /// end of the last row.
+    /// end of the last row. Places beyond the largest number are at it.
     pub fn place(&self, panels: &[PanelSize], top: usize) -> (Vec<PlacedPanel>, usize) {
         let cells = self.cells(panels.iter().map(|panel| panel.columns));
         let rows = cells.last().map_or(0, |[_, row]| row + 1);
@@ -72,10 +78,11 @@ impl PanelGrid {
             let [height, text] =
                 of_row().fold([0; 2], |[height, text], (_, p)| [height.max(p.height), text.max(p.text)]);
             placed.extend(of_row().map(|([column, _], panel)| PlacedPanel {
-                corner: [self.left(*column), upper + (height - panel.height) / 2],
-                text: upper + height,
+                corner: [self.left(*column), upper.saturating_add((height - panel.height) / 2)],
+                text: upper.saturating_add(height),
             }));
-            upper += height + text + if row + 1 < rows { self.gap } else { 0 };
+            let gap = if row + 1 < rows { self.gap } else { 0 };
+            upper = [height, text, gap].into_iter().fold(upper, usize::saturating_add);
         }
         (placed, upper)
     }
@@ -99,6 +106,8 @@ mod tests {
         assert_eq!(placed, [at([0, 5], 105), at([0, 165], 225), at([680, 155], 225)]);
         assert_eq!(end, 235);
         assert_eq!(GRID.place(&[], 7), (vec![], 7));
+        let huge = GRID.place(&[size(3, usize::MAX, 9), size(3, 9, usize::MAX)], 7);
+        assert_eq!(huge.1, usize::MAX);
     }
 
     /// Panels of random sizes lie in the figure, in reading order, and neither pictures nor texts overlap.
@@ -118,6 +127,9 @@ mod tests {
                 .collect();
             let spans: Vec<usize> = panels.iter().map(|panel| panel.columns).collect();
             let widths = grid.widths(&spans);
+            // Columns differ by at most one pixel.
+            let narrowest = *grid.widths(&vec![1; grid.columns]).iter().min().unwrap();
+            assert!(grid.has_columns_of(narrowest) && !grid.has_columns_of(narrowest + 2), "{scene}");
             let (placed, end) = grid.place(&panels, 10);
             let boxes: Vec<[[usize; 2]; 2]> = (0..12)
                 .map(|i| {

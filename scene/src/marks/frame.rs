@@ -1,6 +1,6 @@
 //! Clipping of marks to the frame ([STIP-16]): dots and text are kept whole or not at all, lines and areas are cut.
 
-use super::{Marks, Polyline, Vertex};
+use super::{Marks, Polyline, Text, Vertex};
 use glam::DVec2;
 
 impl Marks {
@@ -11,15 +11,17 @@ impl Marks {
     /// An area stays where it is inside. A line of text stays if its start is inside, even if its end is not, because
     /// this crate does not know its font.
     pub fn keep_inside(&mut self) {
-        self.keep_within(self.page.frame());
-    }
-
-    /// Clips the marks to a rectangle, as [`Self::keep_inside`] does to the frame.
-    pub fn keep_within(&mut self, frame: [DVec2; 2]) {
+        let frame = self.page.frame();
         for layer in &mut self.layers {
             layer.dots.retain(|dot| inside(frame, dot.at, dot.radius));
             let lines = std::mem::take(&mut layer.lines);
-            layer.lines = lines.into_iter().flat_map(|line| cut(frame, line)).collect();
+            let parts = lines.into_iter().flat_map(|line| {
+                if line.vertices.iter().all(|v| inside(frame, v.at, v.radius)) {
+                    return vec![line];
+                }
+                cut(&line, &|a, b| [range(frame, a, b, 1.0), None])
+            });
+            layer.lines = parts.collect();
             for area in &mut layer.areas {
                 area.outlines.iter_mut().for_each(|outline| *outline = clip(frame, std::mem::take(outline)));
                 area.outlines.retain(|outline| outline.len() > 2);
@@ -29,33 +31,46 @@ impl Marks {
         }
     }
 
-    /// Cuts a rectangle out of the marks. Dots and text that begin in it are removed, lines and areas are cut.
-    ///
-    /// Areas become the parts in four strips around the rectangle, and lines end at the strips' edges.
-    pub fn cut_out(&mut self, [low, high]: [DVec2; 2]) {
-        let size = self.page.size;
+    /// Cuts a rectangle out of the marks. Dots and text that reach into it are removed, lines and areas are cut. Lines end
+    /// half their width before it. `extent` gives the corners of a text. Returns the removed texts.
+    pub fn cut_out(&mut self, hole: [DVec2; 2], extent: &dyn Fn(&Text) -> [DVec2; 2]) -> Vec<Text> {
+        let [low, high] = hole;
+        let [least, most] = [DVec2::NEG_INFINITY, DVec2::INFINITY];
         let strips = [
-            [DVec2::ZERO, DVec2::new(low.x, size.y)],
-            [DVec2::new(high.x, 0.0), size],
-            [DVec2::new(low.x, 0.0), DVec2::new(high.x, low.y)],
-            [DVec2::new(low.x, high.y), DVec2::new(high.x, size.y)],
+            [least, DVec2::new(low.x, most.y)],
+            [DVec2::new(high.x, least.y), most],
+            [DVec2::new(low.x, least.y), DVec2::new(high.x, low.y)],
+            [DVec2::new(low.x, high.y), DVec2::new(high.x, most.y)],
         ];
-        let is_outside = |at: DVec2| at.cmplt(low).any() || at.cmpgt(high).any();
-        let mut whole = self.clone();
-        for layer in &mut whole.layers {
-            (layer.lines, layer.areas) = (Vec::new(), Vec::new());
-            layer.dots.retain(|dot| is_outside(dot.at));
-            layer.texts.retain(|text| is_outside(text.at));
-        }
-        for strip in strips {
-            let mut part = self.clone();
-            part.keep_within(strip);
-            for (whole, part) in whole.layers.iter_mut().zip(part.layers) {
-                whole.lines.extend(part.lines);
-                whole.areas.extend(part.areas);
+        let crossed = |a: &Vertex, b: &Vertex| range(hole, a, b, -1.0);
+        let mut removed = Vec::new();
+        for layer in &mut self.layers {
+            layer.dots.retain(|dot| !inside(hole, dot.at, -dot.radius));
+            let lines = std::mem::take(&mut layer.lines).into_iter();
+            let rest = lines.flat_map(|line| {
+                if line.segments().all(|(a, b)| crossed(a, b).is_none()) {
+                    return vec![line];
+                }
+                cut(&line, &|a, b| match crossed(a, b) {
+                    Some([from, to]) => [(from > 0.0).then_some([0.0, from]), (to < 1.0).then_some([to, 1.0])],
+                    None => [Some([0.0, 1.0]), None],
+                })
+            });
+            layer.lines = rest.collect();
+            for area in &mut layer.areas {
+                let part = |strip: [DVec2; 2]| area.outlines.iter().map(move |outline| clip(strip, outline.clone()));
+                if part(hole).any(|outline| outline.len() > 2) {
+                    // One area, since the edges between two would be seen.
+                    area.outlines = strips.into_iter().flat_map(part).filter(|outline| outline.len() > 2).collect();
+                }
             }
+            layer.areas.retain(|area| !area.outlines.is_empty());
+            removed.extend(layer.texts.extract_if(.., |text| {
+                let [start, end] = extent(text);
+                start.cmplt(high).all() && end.cmpgt(low).all()
+            }));
         }
-        *self = whole;
+        removed
     }
 
     /// Moves the marks on their page.
@@ -110,43 +125,43 @@ fn clip(frame: [DVec2; 2], mut outline: Vec<DVec2>) -> Vec<DVec2> {
     outline
 }
 
-/// The parts of a line that lie inside; the line itself if all of it does.
-fn cut(frame: [DVec2; 2], line: Polyline) -> Vec<Polyline> {
-    if line.vertices.iter().all(|v| inside(frame, v.at, v.radius)) {
-        return vec![line];
-    }
-    let mut vertices = line.vertices;
-    if line.closed {
-        vertices.extend(vertices.first().copied());
-    }
+/// Intervals of a segment, from 0 at its start to 1 at its end, in their order.
+type Intervals = [Option<[f64; 2]>; 2];
+
+/// The parts of a line that stay, open. `kept` gives those of a segment.
+fn cut(line: &Polyline, kept: &dyn Fn(&Vertex, &Vertex) -> Intervals) -> Vec<Polyline> {
     let mut parts: Vec<Vec<Vertex>> = Vec::new();
     // Whether the last part ends where the next segment begins.
     let mut joins = false;
-    for pair in vertices.windows(2) {
-        let Some([from, to]) = range(frame, &pair[0], &pair[1]) else {
-            joins = false;
-            continue;
-        };
-        let end = pair[0].between(&pair[1], to);
-        match parts.last_mut() {
-            Some(part) if joins && from == 0.0 => part.push(end),
-            _ => parts.push(vec![pair[0].between(&pair[1], from), end]),
+    for (a, b) in line.segments() {
+        let intervals = kept(a, b);
+        for [from, to] in intervals.into_iter().flatten() {
+            let end = a.between(b, to);
+            match parts.last_mut() {
+                Some(part) if joins && from == 0.0 => part.push(end),
+                _ => parts.push(vec![a.between(b, from), end]),
+            }
+            joins = to == 1.0;
         }
-        joins = to == 1.0;
+        joins &= intervals.iter().any(Option::is_some);
     }
     parts.into_iter().map(|vertices| Polyline { vertices, closed: false }).collect()
 }
 
-/// Returns the interval of a segment, from 0 to 1, in which the pen is inside the frame. Place and radius are linear
-/// along the segment, so each side of the frame keeps one interval.
-fn range(frame: [DVec2; 2], a: &Vertex, b: &Vertex) -> Option<[f64; 2]> {
+impl Polyline {
+    /// The ends of the segments, in their order.
+    fn segments(&self) -> impl Iterator<Item = (&Vertex, &Vertex)> {
+        let first = self.vertices.first().filter(|_| self.closed);
+        self.vertices.iter().zip(self.vertices.iter().skip(1).chain(first))
+    }
+}
+
+/// Returns the interval of a segment, from 0 to 1, in which the pen is inside the frame, or for `sign` = −1 in which it
+/// touches the frame. Place and radius are linear along the segment, so each side of the frame keeps one interval.
+fn range(frame: [DVec2; 2], a: &Vertex, b: &Vertex, sign: f64) -> Option<[f64; 2]> {
     let [lo, hi] = slackened(frame);
-    clipped([
-        (a.at.x - a.radius - lo.x, b.at.x - b.radius - lo.x),
-        (a.at.y - a.radius - lo.y, b.at.y - b.radius - lo.y),
-        (hi.x - a.at.x - a.radius, hi.x - b.at.x - b.radius),
-        (hi.y - a.at.y - a.radius, hi.y - b.at.y - b.radius),
-    ])
+    let [from, to] = [a, b].map(|v| (v.at - lo - sign * v.radius, hi - v.at - sign * v.radius));
+    clipped([(from.0.x, to.0.x), (from.0.y, to.0.y), (from.1.x, to.1.x), (from.1.y, to.1.y)])
 }
 
 /// The part of a segment, from 0 at its start to 1 at its end, that lies inside all of some lines. Each line is given
@@ -325,8 +340,12 @@ mod tests {
         layer.areas = vec![area(&[&[(20.0, 12.0), (60.0, 12.0), (60.0, 35.0), (20.0, 35.0)]])];
         let dot = |x, y| Dot { at: DVec2::new(x, y), world: DVec3::ZERO, radius: 0.1, opacity: 1.0 };
         layer.dots = vec![dot(40.0, 20.0), dot(40.0, 31.0)];
-        marks.cut_out(hole);
+        let text = |x| Text { characters: "label".into(), at: DVec2::new(x, 20.0), size: 3.0, opacity: 1.0 };
+        layer.texts = vec![text(21.0), text(19.0)];
+        // Texts of 10 mm: one ends in the rectangle, one before it.
+        let removed = marks.cut_out(hole, &|text| [text.at, text.at + DVec2::new(10.0, 1.0)]);
         let layer = &marks.layers[0];
+        assert_eq!((removed, &*layer.texts), (vec![text(21.0)], &[text(19.0)][..]));
         let ends: Vec<f64> = layer.lines.iter().flat_map(|line| line.vertices.iter().map(|v| v.at.x)).collect();
         assert!(ends.iter().zip([20.0, 29.5, 50.5, 80.0]).all(|(a, b)| (a - b).abs() < 1e-6), "{ends:?}");
         let shoelace = |outline: &Vec<DVec2>| -> f64 {
@@ -338,5 +357,54 @@ mod tests {
         assert_eq!(layer.dots, [dot(40.0, 31.0)]);
         marks.shift(DVec2::new(1.0, 2.0));
         assert_eq!(marks.layers[0].dots[0].at, DVec2::new(41.0, 33.0));
+    }
+
+    proptest! {
+        /// A point of a line stays if the rectangle, grown by the line's radius, does not hold it. A point of an area
+        /// stays if it lies beside the rectangle. A dot stays if its disc does.
+        #[test]
+        fn only_what_a_rectangle_covers_is_cut_out(
+            corners in prop::array::uniform2((0.0..100.0, 0.0..50.0)),
+            places in prop::collection::vec((-20.0..120.0, -20.0..70.0), 3..9),
+            closed: bool,
+            radius in 0.0..5.0,
+            probes in prop::collection::vec((-20.0..120.0, -20.0..70.0), 30),
+        ) {
+            let [a, b] = corners.map(DVec2::from);
+            let hole = [a.min(b), a.max(b)];
+            let probes: Vec<DVec2> = probes.into_iter().map(DVec2::from).collect();
+            let mut marks = marks();
+            let dot = |at: &DVec2| Dot { at: *at, world: DVec3::ZERO, radius, opacity: 1.0 };
+            let whole = line(closed, &places, radius);
+            let layer = &mut marks.layers[0];
+            layer.lines = vec![whole.clone()];
+            layer.areas = vec![area(&[&places])];
+            layer.dots = probes.iter().map(dot).collect();
+            marks.cut_out(hole, &|text| [text.at; 2]);
+            let Layer { lines, areas, dots, .. } = &marks.layers[0];
+            // How far a place lies outside the rectangle along the axes.
+            let outside = |at: DVec2| (hole[0] - at).max(at - hole[1]).max_element();
+            let away = |at: DVec2, (a, b): (&Vertex, &Vertex)| {
+                let share = ((at - a.at).dot(b.at - a.at) / a.at.distance_squared(b.at)).clamp(0.0, 1.0);
+                at.distance(a.at.lerp(b.at, if share.is_nan() { 0.0 } else { share }))
+            };
+            for (i, (from, to)) in whole.segments().enumerate() {
+                for at in (0..=50).map(|n| from.at.lerp(to.at, f64::from(n) / 50.0)) {
+                    let stays = lines.iter().flat_map(Polyline::segments).any(|part| away(at, part) < 1e-6);
+                    let crosses = whole.segments().enumerate().any(|(k, part)| k != i && away(at, part) < 1e-6);
+                    if (outside(at) - radius).abs() > 1e-6 && !crosses {
+                        prop_assert_eq!(stays, outside(at) > radius, "{}", at);
+                    }
+                }
+            }
+            let outline: Vec<DVec2> = places.iter().copied().map(DVec2::from).collect();
+            let left = |at| areas.iter().flat_map(|area| &area.outlines).map(|outline| winding(outline, at)).sum::<i32>();
+            for &at in probes.iter().filter(|&&at| outside(at).abs() > 1e-6) {
+                prop_assert_eq!(left(at), if outside(at) > 0.0 { winding(&outline, at) } else { 0 }, "{}", at);
+                if (outside(at) - radius).abs() > 1e-6 {
+                    prop_assert_eq!(dots.contains(&dot(&at)), outside(at) > radius, "{}", at);
+                }
+            }
+        }
     }
 }

@@ -79,7 +79,7 @@ fn page(figure: &Figure, scenes: Vec<Scene>) -> Result<Picture, Failures> {
     let layout = FigureLayout::new(figure, &sizes)?;
     let panel = |(mut scene, place)| {
         layout.fit(&mut scene, place);
-        Ok(DrawnPanel::draw(&Job::load(scene)?, &layout, None, &|_| ())?)
+        Ok(DrawnPanel::draw(&Job::load(scene)?, &layout, place, None, &|_| ())?)
     };
     let panels = scenes.into_iter().zip(layout.places()).map(panel).collect::<Result<Vec<_>, Failures>>()?;
     Ok(layout.paint_panels(panels)?)

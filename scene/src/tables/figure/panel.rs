@@ -4,7 +4,7 @@ use crate::document::check::Check;
 use crate::document::declare::{table, unless_empty};
 use crate::document::describe::Table;
 use crate::document::fault::Problem;
-use crate::document::kind::{Bounds, FEW, ListOf, MANY, Number, PathTo, TableOf, Text, Whole};
+use crate::document::kind::{Bounds, End, FEW, ListOf, MANY, Number, PathTo, TableOf, Text, Whole};
 use crate::tables::Corner;
 use std::path::PathBuf;
 
@@ -62,11 +62,12 @@ table! {
         set: key("SCN-1", SETS, |p| unless_empty(&p.source.set), |p, v| p.source.set = v).absent("none");
         /// The corner of the panel that the inset stands in.
         corner: Corner = Corner::BottomRight, key("IO-7", Corner::KIND);
-        /// Its width as a share of the panel's.
-        share: f64 = 0.35, key("IO-7", Number { bounds: Bounds::UNIT, unit: "" });
+        /// Its width as a share of the panel's, in which it has to fit.
+        share: f64 = 0.35, key("IO-7", SHARE);
     }
 }
 
+const SHARE: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(1.0) }, unit: "" };
 const SCENE: PathTo = PathTo { what: "a scene or a volume" };
 const VOLUME: PathTo = PathTo { what: "a volume" };
 const PICTURE: PathTo = PathTo { what: "a picture" };
