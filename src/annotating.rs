@@ -105,12 +105,13 @@ impl<'a> Annotating<'a> {
         let mut layers = self.boxes(view, renderer)?;
         let ways = self.ways(view, renderer, &mut notes)?;
         let mut room = MarginRoom::new(&self.page);
+        room.taken.clone_from(&self.insets);
         let legend = self.legend(view, &mut room, &mut notes)?;
         let margin = self.margin(view, &mut room, &mut notes)?;
         let mut ways = Marks { page: self.page, layers: ways };
         ways.settle();
         let of_ways = ways.layers.iter().flat_map(lines::rectangles);
-        let obstacles = room.taken.into_iter().chain(of_ways).chain(self.insets.iter().copied()).collect();
+        let obstacles = room.taken.into_iter().chain(of_ways).collect();
         layers.extend(ways.layers);
         layers.extend(self.labels(view, renderer, obstacles, &mut notes)?);
         layers.extend(margin);

@@ -114,7 +114,7 @@ impl<'a> Drawing<'a> {
         Ok(Self { job, first, orbit, shot, prepared: Some(0), draws_volume, renderer, marks, annotations, sight })
     }
 
-    /// Keeps labels off rectangles of the page, in mm.
+    /// Keeps labels and what stands in the margin off rectangles of the page, in mm.
     pub(crate) fn keep_labels_off(&mut self, rectangles: Vec<[DVec2; 2]>) {
         if let Some(annotations) = &mut self.annotations {
             annotations.insets = rectangles;
