@@ -28,7 +28,7 @@ fn random_pages() -> impl Iterator<Item = AnnotatedPage> {
 fn obstacle(scene: u32, i: u32) -> [DVec2; 2] {
     let [x, y, width, height] = uniforms(14, [scene, i, 0], 0);
     let size = DVec2::new(20.0 + 200.0 * width, 10.0 + 150.0 * height);
-    let x = if i % 2 == 0 { -100.0 + 100.0 * x } else { 900.0 - size.x - 100.0 * x };
+    let x = if i.is_multiple_of(2) { -100.0 + 100.0 * x } else { 900.0 - size.x - 100.0 * x };
     let low = DVec2::new(x, 620.0 * y - 20.0);
     [low, low + size]
 }
