@@ -48,6 +48,7 @@ mod variant;
 
 pub use front::front;
 pub use statistics::median;
+#[cfg(feature = "gpu")]
 pub(crate) use statistics::quantile;
 #[cfg(feature = "plots")]
 pub use sweep_format::SweepFormat;
