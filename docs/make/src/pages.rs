@@ -47,17 +47,31 @@ fn scene(block: &str) -> Option<String> {
     }
 }
 
+/// A table of a list stands alone, or goes on with the page's scene.
 #[test]
 fn scenes_on_pages_are_scenes() {
     let mut read = 0;
     for (page, text) in pages() {
-        for scene in blocks(&text, "toml").into_iter().filter_map(scene) {
-            let read_as_such = match is_figure(&scene) {
-                true => parse_figure(&scene, &page, &Overrides::default()).map(drop),
-                false => parse(&scene, &page, &Overrides::default()).map(drop),
+        let faults_of = |scene: &str| {
+            let faults = match is_figure(scene) {
+                true => parse_figure(scene, &page, &Overrides::default()).err(),
+                false => parse(scene, &page, &Overrides::default()).err(),
             };
-            if let Err(faults) = read_as_such {
-                panic!("{}:\n{scene}\n{faults}", page.display());
+            faults.map(|faults| faults.to_string())
+        };
+        let mut whole = String::new();
+        for block in blocks(&text, "toml") {
+            let Some(alone) = scene(block) else { continue };
+            let longer = format!("{whole}\n{block}");
+            if block.starts_with("drypoint") {
+                block.clone_into(&mut whole);
+            } else if block.starts_with("[[") && !whole.is_empty() && faults_of(&longer).is_none() {
+                whole = longer;
+                read += 1;
+                continue;
+            }
+            if let Some(faults) = faults_of(&alone) {
+                panic!("{}:\n{alone}\n{faults}", page.display());
             }
             read += 1;
         }
