@@ -64,14 +64,13 @@ fn labels_stand_beside_insets() {
     }
 }
 
-/// A text that an inset covers is told.
+/// What stands in the margin stands beside an inset, too.
 #[test]
-fn what_an_inset_covers_is_told() {
+fn the_margin_stands_beside_insets() {
     let (panel, marks, notes, insets) = drawn("bottom-left", "columns");
     let own = panel.marks.unwrap();
     let bar = texts(&own).into_iter().find(|text| text.characters.contains("mm")).unwrap();
     let ([start, end], [low, high]) = (corners_of(bar), insets[0]);
-    assert!(start.cmplt(high).all() && end.cmpgt(low).all(), "{bar:?}");
-    assert!(texts(&marks).iter().all(|text| text.characters != bar.characters));
-    assert_eq!(notes, [format!("panel[0]: the text {:?} is left out: an inset lies over it", bar.characters)]);
+    assert!(start.cmpge(high).any() || end.cmple(low).any(), "{bar:?}");
+    assert!(texts(&marks).iter().any(|text| text.characters == bar.characters) && notes.is_empty(), "{notes:?}");
 }
