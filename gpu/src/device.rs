@@ -76,8 +76,8 @@ impl Gpu {
         Self::limited(WANTED, |limits| limits)
     }
 
-    /// The same adapter with a device of no other features, and of the limits that a function makes of the adapter's. So it
-    /// is like a weaker adapter.
+    /// Opens that adapter's device as a weaker adapter's would be: with no features but these, and with the limits that a
+    /// function makes of the adapter's.
     ///
     /// # Errors
     /// See [`Gpu::new`].

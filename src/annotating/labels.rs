@@ -216,7 +216,7 @@ fn centre(corners: [DVec3; 8]) -> DVec3 {
     corners.iter().sum::<DVec3>() / 8.0
 }
 
-/// What is seen in a frame.
+/// The visible structures and their outline in a frame.
 struct Seen {
     /// The structures of the label volume, the largest first, with a point on each.
     largest: Vec<(u32, DVec3)>,

@@ -86,15 +86,11 @@ fn found(figure: &Figure, table: &str, source: &PanelSource) -> Result<PanelInpu
         (over.beauty_only, over.volume) = (true, source.volume.clone());
         input::find(source.scene.as_deref(), &over)
     });
-    // The keys and the volume of a panel stand in the figure, not on the command line.
+    // The keys of a panel stand in the figure, not on the command line.
     let position = || figure.given.position(&format!("{table}.set"));
-    let in_figure = |failure: Failure| {
-        let remedy =
-            failure.remedy.replace("after the scene on the command line", &format!("by the key {table}.volume"));
-        match failure.place.strip_prefix("--set ") {
-            Some(set) => Failure { place: format!("{}, {set}", position()), remedy, ..failure },
-            None => Failure { remedy, ..failure },
-        }
+    let in_figure = |failure: Failure| match failure.place.strip_prefix("--set ") {
+        Some(set) => Failure { place: format!("{}, {set}", position()), ..failure },
+        None => failure,
     };
     Ok(PanelInput::Scene(Box::new(scene.map_err(|failures| failures.map(in_figure))?)))
 }

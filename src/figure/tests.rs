@@ -64,7 +64,7 @@ fn labels_stand_beside_insets() {
     }
 }
 
-/// What stands in the margin stands beside an inset, too.
+/// Scale bars stand beside an inset, too.
 #[test]
 fn the_margin_stands_beside_insets() {
     let (panel, marks, notes, insets) = drawn("bottom-left", "columns");
@@ -73,4 +73,19 @@ fn the_margin_stands_beside_insets() {
     let ([start, end], [low, high]) = (corners_of(bar), insets[0]);
     assert!(start.cmpge(high).any() || end.cmple(low).any(), "{bar:?}");
     assert!(texts(&marks).iter().any(|text| text.characters == bar.characters) && notes.is_empty(), "{notes:?}");
+}
+
+/// The text of an inset that a later inset of its corner covers is told.
+#[test]
+fn what_an_inset_covers_is_told() {
+    let inset = "[[panel.inset]]\nscene = \"a.toml\"\nshare = 0.4\n";
+    let text = format!("drypoint = 1\n[figure]\nwidth = \"60 mm\"\n[[panel]]\nscene = \"a.toml\"\n{inset}{inset}");
+    let figure = parse_figure(&text, Path::new("figure.toml"), &Overrides::default()).unwrap();
+    let page = FigureLayout::new(&figure, &[[1, 1]; 3]).unwrap();
+    let text = Text { characters: "covered".into(), at: DVec2::splat(5.0), size: 2.0, opacity: 1.0 };
+    let layer = Layer { texts: vec![text], ..Layer::new(page.pen()) };
+    let written = DrawnPanel { marks: Some(Marks { page: page.page, layers: vec![layer] }), ..DrawnPanel::default() };
+    let (_, marks, notes) = page.compose(vec![DrawnPanel::default(), written, DrawnPanel::default()]).unwrap();
+    assert!(texts(&marks).iter().all(|text| text.characters != "covered"));
+    assert_eq!(notes, ["panel[0]: the text \"covered\" is left out: an inset lies over it"]);
 }

@@ -142,7 +142,7 @@ fn files_that_are_no_scene() {
         (
             "empty.toml",
             "error: drypoint is missing\n  at: empty.toml:1:1, key drypoint\n  try: write drypoint = 1, the version of the format that this program reads\n\
-             error: the scene is a template: it names no volume\n  at: empty.toml:1:1, key volume\n  try: name a volume after the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]\n",
+             error: the scene is a template: it names no volume\n  at: empty.toml:1:1, key volume\n  try: name a volume after the scene on the command line or by volume of a figure's panel, or write file = \"…\" or phantom = { name = \"…\" } in [volume]\n",
         ),
         (
             "broken.toml",

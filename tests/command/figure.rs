@@ -187,7 +187,7 @@ fn a_template_in_a_figure_asks_for_the_panels_volume() {
     folder.write("template.toml", "drypoint = 1\n");
     figure(&folder, "", "[[panel]]\nscene = \"template.toml\"\n");
     let said = folder.refused("figure figure.toml -o page.png");
-    assert!(said.contains("  try: name a volume by the key panel[0].volume, or write file = "), "{said}");
+    assert!(said.contains(" or by volume of a figure's panel, or write file = "), "{said}");
 }
 
 /// Letters that are missing are told, and a word that is wider than its panel is broken.

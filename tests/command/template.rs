@@ -147,7 +147,7 @@ fn pairs_that_are_no_scene_and_volume() {
         (
             "render template.toml",
             "error: the scene is a template: it names no volume\n  at: template.toml:1:1, key volume\n  try: name a volume \
-             after the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]\n"
+             after the scene on the command line or by volume of a figure's panel, or write file = \"…\" or phantom = { name = \"…\" } in [volume]\n"
                 .to_owned(),
         ),
         (

@@ -112,16 +112,31 @@ fn a_device_with_the_limits_of_a_browser() {
     let Some(whole) = gpu() else { return };
     let gpu = weaker(wgpu::Features::empty(), |_| wgpu::Limits::default());
     let object = "[[object]]\nname = \"part\"\nvalue = [[150, 0], [180, 1]]\nmove = [0, 2, 0]\n[object.ghost]\n";
-    let mut drawn = 0;
-    for more in ["", "[surface]\niso = 150\n", "[sampling]\nkernel = \"bspline\"\n", object, "[[halo]]\n"] {
-        let job = job(more);
+    let ghosted = object.replace("move", "ghosting = 0.6\nfunnel = \"6 px\"\nmove");
+    let styles = SCENE.replace("kind = \"regular\"\n", "").replace("color = \"#804020\"", "style = \"wax\"");
+    let styles = styles.replace("color = \"#88ccff\"", "style = \"chalk\"").replace("[shading]\n", "");
+    let mut texts =
+        ["", "[surface]\niso = 150\n", "[sampling]\nkernel = \"bspline\"\n", object, &ghosted, "[[halo]]\n"]
+            .map(|more| format!("{SCENE}{more}"))
+            .to_vec();
+    texts.push(SCENE.replace("samples = 1", "samples = \"auto\""));
+    texts.push(format!("{styles}[contours]\n[style_mipmaps]\n"));
+    texts.push(format!("{styles}[contours]\nkappa = \"exact\"\n[surface]\niso = 150\n"));
+    let (mut drawn, mut refused) = (0, 0);
+    for text in &texts {
+        let job = job_of(text);
         match frame(&job, &gpu) {
             Ok(picture) => {
                 drawn += 1;
-                assert_eq!(picture, frame(&job, &whole).unwrap(), "{more}");
+                assert_eq!(picture, frame(&job, &whole).unwrap(), "{text}");
             }
-            Err(failure) => assert!(failure.contains("lists for a shader"), "{more}: {failure}"),
+            Err(failure) => {
+                println!("{failure}");
+                refused += 1;
+                assert!(failure.contains("lists for a shader"), "{text}: {failure}");
+            }
         }
     }
-    assert!(drawn >= 4, "{drawn}");
+    // A funnel and a halo have more lists.
+    assert_eq!([drawn, refused], [texts.len() - 2, 2]);
 }

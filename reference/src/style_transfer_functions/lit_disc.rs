@@ -1,4 +1,4 @@
-//! A style's lit sphere as a disc of a picture's pixels, for legends.
+//! A style's lit sphere as a disc of a picture's pixels.
 
 use super::SphereMap;
 use drypoint_scene::picture::Overlay;
@@ -6,11 +6,10 @@ use drypoint_scene::style::Style;
 use std::ops::Range;
 
 /// Sub-pixels along each axis of a pixel.
-const PARTS: usize = 8;
+const PARTS: usize = 4;
 
-/// The visible half of a style's sphere in a picture of `size` pixels, antialiased by 8 × 8 samples for each pixel.
-/// `centre` and `radius` are in pixels, the first pixel's centre at (½, ½). At the centre the
-/// normal is (0, 0, 1). What lies outside the picture is left out.
+/// The visible half of a style's sphere in a picture of `size` pixels, antialiased by 4 × 4 samples for each pixel.
+/// `centre` and `radius` are in pixels, the first pixel's centre at (½, ½). At the centre the normal is (0, 0, 1). What lies outside the picture is left out.
 pub fn lit_disc(style: &Style, centre: [f64; 2], radius: f64, size: [usize; 2]) -> Overlay {
     let map = SphereMap::new(style);
     let [columns, rows] = [0, 1].map(|axis| touched(centre[axis], radius, size[axis]));

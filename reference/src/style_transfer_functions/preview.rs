@@ -1,41 +1,23 @@
 //! Picture of a style on a sphere.
 
-use super::SphereMap;
+use super::lit_disc;
 use crate::accumulator::Accumulator;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::style::Style;
 
-/// Sub-pixels along each axis of a pixel.
-const PARTS: usize = 4;
-
-/// The layer `beauty` of a square picture on white. A sphere of the style touches the picture's sides, antialiased by 4
-/// × 4 samples for each pixel.
+/// The layer `beauty` of a square picture on white. A sphere of the style touches the picture's sides.
 pub fn preview(style: &Style, side: usize) -> Picture {
-    let map = SphereMap::new(style);
-    let mut channels = vec![vec![1.0; side * side]; 4];
-    for (i, pixel) in (0..side * side).map(|i| (i, pixel(&map, side, i % side, i / side))) {
-        for (channel, value) in channels.iter_mut().zip(pixel) {
-            channel[i] = value;
+    let radius = side as f64 / 2.0;
+    let disc = lit_disc(style, [radius; 2], radius, [side; 2]);
+    let mut channels = vec![Vec::new(); 4];
+    for [r, g, b, a] in disc.pixels {
+        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
+        front.over_premultiplied([1.0; 4]);
+        for (channel, value) in channels.iter_mut().zip(front.rgb.into_iter().chain([1.0])) {
+            channel.push(value);
         }
     }
     Picture { width: side, height: side, layers: vec![Layer { kind: LayerKind::Beauty, channels }] }
-}
-
-/// Linear premultiplied pixel (x, y): the sphere over white.
-fn pixel(map: &SphereMap, side: usize, x: usize, y: usize) -> [f64; 4] {
-    let mut sum = [0.0; 4];
-    let at = |k: usize, part: usize| (k as f64 + (part as f64 + 0.5) / PARTS as f64) * 2.0 / side as f64 - 1.0;
-    for part in 0..PARTS * PARTS {
-        let (nx, ny) = (at(x, part % PARTS), -at(y, part / PARTS));
-        let [r, g, b, a] = if nx * nx + ny * ny <= 1.0 { map.sample(nx, ny) } else { [0.0; 4] };
-        let mut front = Accumulator { rgb: [r, g, b], opacity: a };
-        front.over_premultiplied([1.0; 4]);
-        for (sum, c) in sum.iter_mut().zip(front.rgb) {
-            *sum += c;
-        }
-        sum[3] += 1.0;
-    }
-    sum.map(|c| c / (PARTS * PARTS) as f64)
 }
 
 #[cfg(test)]
@@ -57,11 +39,11 @@ mod tests {
 
     #[test]
     fn the_spheres_area_is_that_of_its_disk() {
-        // 4 × 4 parts a pixel count a disk of 1024 parts across to within a part along its circumference.
+        // Parts of a pixel, four each way, count a disk of 1024 parts across to within a part along its circumference.
         let side = 256;
         let picture = of_constant([0.0, 0.0, 0.0, 1.0], side);
         let covered: f64 = picture.layers[0].channels[0].iter().map(|c| 1.0 - c).sum();
         let area = std::f64::consts::FRAC_PI_4 * (side * side) as f64;
-        assert!((covered - area).abs() < std::f64::consts::PI * side as f64 / PARTS as f64);
+        assert!((covered - area).abs() < std::f64::consts::PI * side as f64 / 4.0);
     }
 }

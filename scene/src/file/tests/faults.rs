@@ -200,13 +200,13 @@ fn what_must_be_there() {
         text(""),
         "drypoint is missing\n  at s.toml:1:1, key drypoint\n  write drypoint = 1, the version of the format that this \
          program reads\nthe scene is a template: it names no volume\n  at s.toml:1:1, key volume\n  name a volume after \
-         the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
+         the scene on the command line or by volume of a figure's panel, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
     );
     assert_eq!(
         text("drypoint = 2\n[volume]\n"),
         "drypoint cannot be 2\n  at s.toml:1:12, key drypoint\n  write 1, the version of the format that this program \
          reads\nthe scene is a template: it names no volume\n  at s.toml:2:2, key volume.file\n  name a volume after \
-         the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
+         the scene on the command line or by volume of a figure's panel, or write file = \"…\" or phantom = { name = \"…\" } in [volume]"
     );
     assert_eq!(
         faults("[transfer]\nnodes = [{ style = \"wax\" }, { at = 3 }]\n"),

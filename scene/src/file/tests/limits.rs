@@ -1,6 +1,7 @@
 //! Lists, tables and texts of any length are read, or refused with their number, in a time that grows with the length.
 
-use super::drift::{SAMPLES, with};
+use super::drift::with;
+use super::samples::SAMPLES;
 use super::*;
 use crate::plan::Plan;
 use serde_json::Value;

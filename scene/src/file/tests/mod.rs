@@ -10,6 +10,7 @@ mod over;
 mod overrides;
 mod random;
 mod round_trip;
+mod samples;
 mod schema;
 
 use super::*;

@@ -7,11 +7,11 @@ use crate::tables::{Axis, Node, NodeColor, RowAt, Scene, Transfer};
 pub struct LegendRow<'a> {
     /// The style or the colour.
     pub look: &'a NodeColor,
-    /// What has this look.
+    /// The values or labels that have this look.
     pub of: LegendEntry<'a>,
 }
 
-/// What a row of a legend stands for.
+/// The values or labels that a row of a legend stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LegendEntry<'a> {
     /// A value, in the unit of the function.

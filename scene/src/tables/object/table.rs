@@ -72,7 +72,7 @@ table! {
         /// The motion as an affine matrix by rows, the last [0, 0, 0, 1]; in place of the other four.
         matrix: key("VS-2", Matrix, |o| o.motion.matrix, |o, v| o.motion.matrix = Some(v))
             .absent("`move`, `scale`, `rotate` and `center`");
-        /// What the selection does while `[orbit]` turns the camera. Its ghost and the background stay in the world.
+        /// Motion of the selection while `[orbit]` turns the camera. Its ghost and the background stay in the world.
         ///
         /// The camera of the first frame counts.
         interaction: InteractionState = InteractionState::Integrated, key("VS-9", InteractionState::KIND);

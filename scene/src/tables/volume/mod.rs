@@ -149,8 +149,8 @@ pub(super) fn no_volume() -> Problem {
     Problem::Contradiction {
         what: "the scene is a template: it names no volume".into(),
         remedy:
-            "name a volume after the scene on the command line, or write file = \"…\" or phantom = { name = \"…\" } \
-                 in [volume]"
+            "name a volume after the scene on the command line or by volume of a figure's panel, or write file = \"…\" \
+                 or phantom = { name = \"…\" } in [volume]"
                 .into(),
     }
 }
