@@ -51,7 +51,11 @@ fn main() -> Result<(), String> {
     for job in &jobs {
         let frames = cards.iter().map(|gpu| GpuFrames::new(job, gpu)).collect::<Result<Vec<_>, _>>();
         let reference = job.renderer().map_err(|failure| failure.to_string())?;
-        kinds.push(Kind { frames: frames.map_err(|failure| failure.to_string())?, reference, rounds: Vec::new() });
+        let mut frames = frames.map_err(|failure| failure.to_string())?;
+        let before = gpu.dispatches();
+        frames[0].frame(&|_| ()).map_err(|failure| failure.to_string())?;
+        let dispatches = gpu.dispatches() - before;
+        kinds.push(Kind { frames, reference, dispatches, rounds: Vec::new() });
     }
     // All kinds take turns. The first rounds warm up.
     for _ in 0..WARM + ROUNDS {
@@ -59,11 +63,11 @@ fn main() -> Result<(), String> {
     }
     println!("{}, medians of {ROUNDS} rounds\n", gpu.describe());
     println!(
-        "| | reference, ms | rays, ms | shown, ms | as a picture, ms | to Phong | fast: rays, ms | shown, ms | to Phong |"
+        "| | dispatches | reference, ms | rays, ms | shown, ms | as a picture, ms | to Phong | fast: rays, ms | shown, ms | to Phong |"
     );
-    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|");
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for ((name, _), kind) in SCENES.iter().zip(&kinds) {
-        print!("| {name} | {:.0}", 1e3 * kind.median(|round| round.reference));
+        print!("| {name} | {} | {:.0}", kind.dispatches, 1e3 * kind.median(|round| round.reference));
         for card in 0..kind.frames.len() {
             print!(" | {:.2}", 1e3 * kind.median(|round| round.cards[card].rays));
             print!(" | {:.2}", 1e3 * kind.median(|round| round.cards[card].shown));
@@ -83,6 +87,8 @@ fn main() -> Result<(), String> {
 struct Kind<'a> {
     frames: Vec<GpuFrames>,
     reference: Renderer<'a>,
+    /// Dispatches of a frame.
+    dispatches: usize,
     rounds: Vec<Round>,
 }
 

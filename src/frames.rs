@@ -48,11 +48,11 @@ pub trait Frames {
     fn merge(&mut self, lines: Option<Fragments>) -> Result<(), Failure>;
 
     /// Takes the camera and the lights of another shot of the scene ([`Shot::seen_from`]), and the size and the rays of a
-    /// coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)). Nothing is prepared anew.
+    /// coarse frame ([`Job::coarse_shot`](crate::job::Job::coarse_shot)). Nothing is prepared anew. Reaches in px and mm keep
+    /// their pixels: in a coarse frame such halos are wider beside the volume.
     ///
     /// # Errors
-    /// The camera is too far away, or the size differs before a picture. On a graphics card halos and funnels have one
-    /// size, too.
+    /// The camera is too far away, or the size differs before a picture. On a graphics card funnels have one size, too.
     fn turn(&mut self, shot: &Shot) -> Result<(), Failure>;
 
     /// Takes a variant of the job's scene, if that saves work, and removes lines inside the picture. Returns whether it did;

@@ -246,7 +246,7 @@ impl Frames for GpuFrames {
         let refines = |shot: &Shot| shot.refine_above.is_some();
         let old = &self.uploaded.shot;
         if size(shot) != size(old) && !self.renderer.takes_sizes() || refines(shot) && !refines(old) {
-            let what = "frames with halos, funnels or a picture behind them have one size on a graphics card";
+            let what = "frames with funnels or a picture behind them have one size on a graphics card";
             return Err(Failure::new(what, "--backend", "prepare frames of a scene of that size"));
         }
         self.renderer.turn(shot, &self.grid).map_err(|error| self.failure(&error))?;

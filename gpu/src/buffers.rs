@@ -10,6 +10,17 @@ pub(crate) fn pipeline(
     entry_point: &'static str,
     groups: &[&wgpu::BindGroupLayout],
 ) -> Result<wgpu::ComputePipeline, GpuError> {
+    pipeline_with(gpu, text, entry_point, groups, &[])
+}
+
+/// A pipeline of a shader's entry point with values of its constants.
+pub(crate) fn pipeline_with(
+    gpu: &Gpu,
+    text: String,
+    entry_point: &'static str,
+    groups: &[&wgpu::BindGroupLayout],
+    constants: &[(&str, f64)],
+) -> Result<wgpu::ComputePipeline, GpuError> {
     let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
     gpu.count_pipeline();
     gpu.attempt("the shader", || {
@@ -25,7 +36,11 @@ pub(crate) fn pipeline(
             layout: Some(&layout),
             module: &module,
             entry_point: Some(entry_point),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants,
+                // Workgroups write their memory before they read it.
+                zero_initialize_workgroup_memory: false,
+            },
             cache: None,
         })
     })

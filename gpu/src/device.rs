@@ -63,6 +63,8 @@ pub struct Gpu {
     interpolation: Interpolation,
     /// Number of compiled pipelines.
     pipelines: Arc<AtomicUsize>,
+    /// Number of recorded dispatches.
+    dispatches: Arc<AtomicUsize>,
     /// The driver's reason for the loss of the device, if it was lost.
     lost: Arc<Mutex<Option<String>>>,
 }
@@ -112,7 +114,15 @@ impl Gpu {
         device.set_device_lost_callback(move |_, reason| {
             *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
         });
-        Self { device, queue, info, interpolation: Interpolation::Exact, pipelines: Arc::default(), lost }
+        Self {
+            device,
+            queue,
+            info,
+            interpolation: Interpolation::Exact,
+            pipelines: Arc::default(),
+            dispatches: Arc::default(),
+            lost,
+        }
     }
 
     /// The device, for making textures for [`CardRenderer::frame_into`](crate::CardRenderer::frame_into).
@@ -133,6 +143,23 @@ impl Gpu {
     /// Counts a pipeline.
     pub(crate) fn count_pipeline(&self) {
         self.pipelines.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Number of dispatches recorded since the device was opened. In a frame each waits for the one before it.
+    pub fn dispatches(&self) -> usize {
+        self.dispatches.load(Ordering::Relaxed)
+    }
+
+    /// Records workgroups of a pipeline, across, down and in depth.
+    pub(crate) fn dispatch(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: &wgpu::ComputePipeline,
+        [x, y, z]: [u32; 3],
+    ) {
+        pass.set_pipeline(pipeline);
+        pass.dispatch_workgroups(x, y, z);
+        self.dispatches.fetch_add(1, Ordering::Relaxed);
     }
 
     /// The adapter's name and driver, and whether it is software, for display.

@@ -86,10 +86,9 @@ impl ShaderKernel<'_> {
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                pass.set_pipeline(&pipeline);
                 pass.set_bind_group(0, &first, &[]);
                 pass.set_bind_group(1, &second, &[]);
-                pass.dispatch_workgroups((rows as u32).div_ceil(64), 1, 1);
+                gpu.dispatch(&mut pass, &pipeline, [(rows as u32).div_ceil(64), 1, 1]);
             }
             encoder.copy_buffer_to_buffer(&output, 0, &back, 0, bytes);
             gpu.queue.submit([encoder.finish()]);

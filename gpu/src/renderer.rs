@@ -13,10 +13,10 @@ use crate::ray::passes::RayPasses;
 use crate::ray::present::Presentation;
 use crate::shader::{Data, Shader};
 use crate::volumeshop::funnel::{FunnelPasses, MAPS};
-use crate::volumetric_halos::planes::{self, HaloPlanes, corners};
+use crate::volumetric_halos::planes::{self, Extent, HaloPlanes, corners};
+use crate::volumetric_halos::seed_boxes;
 use crate::{CardInputs, Gpu, GpuError, Precision, UploadedVolume, compose, ray, volumeshop};
 use drypoint_scene::fragments::Fragments;
-use drypoint_scene::glam::DVec3;
 use drypoint_scene::picture::{Layer, LayerKind, Picture};
 use drypoint_scene::shot::Shot;
 use drypoint_scene::space::Grid;
@@ -113,10 +113,10 @@ impl CardRenderer {
             check_lists(gpu, of_data + 2 + usize::from(shot.refine_above.is_some()) + further.len())?;
             Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
         } else {
-            let others = others_in(inputs, &objects);
+            let extent = extent(shot, inputs, &objects, (&scales, precision))?;
             let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
             check_lists(gpu, of_data + planes::LISTS + usize::from(further.is_some()))?;
-            let planes = HaloPlanes::new(gpu, shot, (grid, others), further, shader, &data_layout, precision)?;
+            let planes = HaloPlanes::new(gpu, shot, (grid, extent), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))
         };
         let params = buffer(
@@ -153,8 +153,9 @@ impl CardRenderer {
     /// Takes another shot for the following frames, by the arguments of [`CardRenderer::new`]. Lines inside the volume
     /// are removed.
     ///
-    /// Pipelines are compiled only if the text of the shader, the layers, the size of the picture or the reach of halos and
-    /// funnels differs. Other numbers and colours, and moved clip planes, are uploaded: scalars, and the lists that differ.
+    /// Pipelines are compiled only if the text of the shader, the layers or funnels differ, or the size of a picture that
+    /// [has one](Self::takes_sizes). Other numbers and colours, and moved clip planes, are uploaded: scalars, and the lists that
+    /// differ.
     ///
     /// # Errors
     /// See [`CardRenderer::new`]. The renderer then keeps its previous shot.
@@ -170,7 +171,7 @@ impl CardRenderer {
             && FunnelPasses::fit(self.funnels.as_ref(), shot)
             && match &self.rays {
                 Rays::Alone(passes) => shot.halos.list.is_empty() && passes.fit(shot),
-                Rays::Together(planes) => planes.fit(shot),
+                Rays::Together(_) => true,
             };
         if !stays {
             *self = Self::compiled(&self.gpu, volumes, shot, inputs, (shader, scales, text))?;
@@ -178,23 +179,27 @@ impl CardRenderer {
         }
         let objects = PlacesOfObjects::new(shot, inputs)?;
         let before = Some((&self.shader, &self.data));
-        self.data = bind_data(&self.gpu, volumes, &shader, &self.data_layout, self.precision, before)?;
+        let data = bind_data(&self.gpu, volumes, &shader, &self.data_layout, self.precision, before)?;
         let grid = inputs.data.main.volume.grid();
-        self.lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         match &mut self.rays {
             Rays::Alone(passes) => passes.turn(shot, grid),
-            Rays::Together(planes) => planes.change(shot, grid, others_in(inputs, &objects)),
+            Rays::Together(planes) => {
+                let extent = extent(shot, inputs, &objects, (&scales, self.precision))?;
+                planes.turn(&self.gpu, shot, (grid, Some(extent)))?;
+            }
         }
+        self.lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
+        self.data = data;
         (self.shader, self.scales, self.objects) = (shader, scales, objects);
         self.asked.clone_from(&shot.layers);
         self.resize(shot)
     }
 
-    /// Whether pictures of other sizes and other rays of pixels need no other pipelines. Images of halos and of funnels have
-    /// one size, and so has a picture behind the volume.
+    /// Whether pictures of other sizes and other rays of pixels need no other pipelines. Maps of funnels have one size, and so
+    /// has a picture behind the volume.
     pub fn takes_sizes(&self) -> bool {
         let has_pixels = self.shader.data.iter().any(|(binding, ..)| *binding == ray::BACKGROUND);
-        matches!(self.rays, Rays::Alone(_)) && self.funnels.is_none() && !has_pixels
+        self.funnels.is_none() && !has_pixels
     }
 
     /// Takes the size and the rays of a shot, with buffers of their own if the size differs.
@@ -213,10 +218,14 @@ impl CardRenderer {
     /// [takes](Self::takes_sizes) them. Nothing else may differ between the shots.
     ///
     /// # Errors
-    /// There are more sample planes than the shader can count.
+    /// There are more sample planes than the shader can count, or images of halos do not fit.
     pub fn turn(&mut self, shot: &Shot, grid: &Grid) -> Result<(), GpuError> {
         let place = GridPlacement::own(shot, grid);
         let blocks = [compose::camera(shot, &place)?, compose::objects::camera(shot, &self.objects, &place)?];
+        match &mut self.rays {
+            Rays::Alone(passes) => passes.turn(shot, grid),
+            Rays::Together(planes) => planes.turn(&self.gpu, shot, (grid, None))?,
+        }
         blocks.iter().for_each(|block| self.shader.block.update(block));
         let is_lighting = |(_, _, data): &(u32, &str, Data)| matches!(data, Data::Lighting(_));
         let tables = self.shader.data.iter().zip(&self.data.lists).filter(|(data, _)| is_lighting(data));
@@ -227,10 +236,6 @@ impl CardRenderer {
         }
         if let Some(lines) = &mut self.lines {
             lines.turn(shot, grid);
-        }
-        match &mut self.rays {
-            Rays::Alone(passes) => passes.turn(shot, grid),
-            Rays::Together(planes) => planes.turn(shot, grid),
         }
         self.resize(shot)
     }
@@ -401,9 +406,17 @@ pub(crate) fn data_layout(gpu: &Gpu, shader: &Shader) -> Result<wgpu::BindGroupL
     gpu.attempt("the scene", || gpu.device.create_bind_group_layout(&descriptor))
 }
 
-/// The corners of the boxes about everything visible beside the volume.
-fn others_in(inputs: &CardInputs<'_>, objects: &PlacesOfObjects) -> Vec<DVec3> {
-    inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect()
+/// The extent of everything visible beside the volume, and of seeds.
+fn extent(
+    shot: &Shot,
+    inputs: &CardInputs<'_>,
+    objects: &PlacesOfObjects,
+    (scales, precision): (&Scales, Precision),
+) -> Result<Extent, GpuError> {
+    Ok(Extent {
+        others: inputs.data.meshes.iter().flat_map(corners).chain(objects.corners()).collect(),
+        seeds: seed_boxes(shot, inputs.object(0)?.measured, scales, precision),
+    })
 }
 
 /// The data that a shader reads, on the card.

@@ -1,6 +1,6 @@
 //! Volumetric halos (Bruckner and Gröller 2007): shaders in f64 equal the reference to 10⁻⁹.
 
-use crate::double::differences;
+use crate::double::{differences, load};
 use crate::two_quantities::{labels, styles, torus};
 use crate::{field, gpu};
 use drypoint::frames::Frames;
@@ -275,6 +275,38 @@ fn a_picture_that_is_too_large() {
     let job = Job::load(scene).unwrap_or_else(|failures| panic!("{failures}"));
     let failure = GpuJob::new(&job, &gpu, Precision::Single).unwrap().renderer().err().unwrap().to_string();
     assert!(failure.contains("the list of rays takes 73728000000 bytes"), "{failure}");
+}
+
+/// A group of planes is a visit, and one dispatch for all stages of spreading if a workgroup has memory for them: two dispatches
+/// that wait for each other. Groups whose bricks cannot seed are visited together.
+#[test]
+fn dispatches_of_a_frame() {
+    let Some(gpu) = gpu() else { return };
+    let camera = "direction = [0, 0, 1]\nup = [0, 1, 0]\nprojection = \"orthographic\"\nheight = 40";
+    let count = |tables: &str| {
+        let text = scene("", &format!("{tables}[sampling]\nstep = \"1 voxel\"\n"));
+        let job = load(&text.replace("direction = [0.3, 1, -0.4]", camera));
+        let mut frames = GpuFrames::new(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
+        let before = gpu.dispatches();
+        frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}"));
+        gpu.dispatches() - before
+    };
+    assert_eq!(count(""), 1);
+    // No value seeds: the start of rays, one visit, the pixels.
+    let nothing = "[[halo]]\nseed.value = [[1000, 0], [1001, 1]]\n";
+    assert_eq!(count(nothing), 3);
+    // 31 cells from the first voxel to the last one are at most 36 planes with those beside them.
+    let [one, four, far] = ["", "every = 4\n", "every = 4\nspread.reach = \"300 px\"\n"]
+        .map(|keys| count(&format!("[[halo]]\nseed.value = [[0, 1]]\n{keys}")));
+    println!("every plane {one}, every fourth {four}, far {far}");
+    assert!((2 + 2 * 32..=2 + 2 * 36).contains(&one));
+    assert!((2 + 2 * 8..=2 + 2 * 10).contains(&four));
+    // H₀ and four passes on their own.
+    assert_eq!(far - four, (four - 2) / 2 * 4);
+    // The tube of the torus is a third of the volume's depth.
+    let tube = count("[[halo]]\nseed.value = [[120, 0], [140, 1]]\nevery = 4\n");
+    println!("of the tube {tube}");
+    assert!(tube < four);
 }
 
 /// Frames of a camera that turns are those of a renderer of its own: other planes, the same images.

@@ -142,6 +142,8 @@ fn a_changed_scene_is_drawn_as_if_it_were_new() {
         (table, "direction = [1, 2, 3]", "direction = [3, -2, 1]", true),
         (styles, "direction = [1, 2, 3]", "direction = [1, 2, 3]\nfov = 12", true),
         (halo, "[[150, 0], [180, 1]]", "[[120, 0], [160, 1]]", true),
+        (halo, "size = [37, 30]", "size = [20, 41]", true),
+        (halo, "[[halo]]", "[[halo]]\nevery = 4\nspread.passes = 6", true),
         (object, "move = [0, 2, 0]", "move = [0, 3, 0]", true),
     ];
     for (tables, from, to, stays) in edits {
@@ -185,7 +187,18 @@ fn a_coarse_frame_is_the_scene_in_its_size() {
     let Some(gpu) = gpu() else { return };
     let object =
         "[[object]]\nname = \"part\"\nvalue = [[150, 0], [180, 1]]\nmove = [0, 2, 0]\nghosting = 0.5\n[object.ghost]\n";
-    for (samples, tables) in [("1", ""), ("2", "[surface]\niso = 150\n"), ("\"auto\"", object), ("\"auto\"", "")] {
+    let halo = "[[halo]]\nseed.value = [[150, 0], [180, 1]]\nkind = \"emissive\"\n";
+    // A reach that takes fewer passes, and fewer dispatches, in a smaller picture.
+    let far = "[[halo]]\nevery = 3\nspread = { passes = 5, reach = \"60 %\" }\n";
+    for (samples, tables) in [
+        ("1", ""),
+        ("2", "[surface]\niso = 150\n"),
+        ("\"auto\"", object),
+        ("\"auto\"", ""),
+        ("1", halo),
+        ("2", far),
+        ("\"auto\"", &format!("{halo}{far}")),
+    ] {
         let text = format!("{SCENE}{tables}").replace("samples = 1", &format!("samples = {samples}"));
         let small = text.replace("[67, 50]", "[23, 17]").replace(&format!("samples = {samples}"), "samples = 1");
         let [exact, small] = [&text, &small].map(|text| job(text));
@@ -207,11 +220,12 @@ fn a_coarse_frame_is_the_scene_in_its_size() {
     }
 }
 
-/// Images of halos have one size: the shot of a coarse frame is refused, and changes nothing.
+/// Maps of funnels have one size: the shot of a coarse frame is refused, and changes nothing.
 #[test]
-fn a_coarse_frame_with_halos_is_refused() {
+fn a_coarse_frame_with_funnels_is_refused() {
     let Some(gpu) = gpu() else { return };
-    let job = job(&format!("{SCENE}[[halo]]\nseed.value = [[150, 0], [180, 1]]\n"));
+    let part = "[[object]]\nname = \"part\"\nvalue = [[150, 0], [180, 1]]\nmove = [0, 2, 0]\nghosting = 0.6\nfunnel = \"6 px\"\n";
+    let job = job(&format!("{SCENE}{part}[object.ghost]\n"));
     let mut frames = GpuFrames::new(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
     let whole = frames.frame(&|_| ()).unwrap_or_else(|failure| panic!("{failure}")).0;
     let failure = frames.turn(&job.coarse_shot(NonZeroUsize::new(2).unwrap()).unwrap()).unwrap_err().to_string();

@@ -107,10 +107,9 @@ impl RayPasses {
                     let begins = number == 0 && first == 0 && part == 0;
                     let ends = is_end_of_rows && rows.end == height;
                     let run = |run: &mut wgpu::ComputePass<'_>| {
-                        run.set_pipeline(&pass.pipeline);
                         run.set_bind_group(0, &group, &[]);
                         run.set_bind_group(1, canvas.data, &[]);
-                        run.dispatch_workgroups(groups[0], groups[1], 1);
+                        canvas.gpu.dispatch(run, &pass.pipeline, [groups[0], groups[1], 1]);
                     };
                     canvas.write_params(block, precision)?;
                     canvas.submit([begins, ends], run, |picture, encoder| {

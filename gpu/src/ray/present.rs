@@ -58,10 +58,9 @@ impl Presentation {
             let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             {
                 let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                run.set_pipeline(&self.pipeline);
                 run.set_bind_group(0, &group, &[]);
                 let [x, y] = size.map(|n| (n as u32).div_ceil(GROUP));
-                run.dispatch_workgroups(x, y, 1);
+                gpu.dispatch(&mut run, &self.pipeline, [x, y, 1]);
             }
             gpu.queue.submit([encoder.finish()]);
         })

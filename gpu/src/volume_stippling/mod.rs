@@ -134,10 +134,9 @@ impl HiddenPoints {
                 let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
                 {
                     let mut run = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                    run.set_pipeline(&self.pipeline);
                     run.set_bind_group(0, &group, &[]);
                     run.set_bind_group(1, &self.data, &[]);
-                    run.dispatch_workgroups((points.len() as u32).div_ceil(GROUP), 1, 1);
+                    gpu.dispatch(&mut run, &self.pipeline, [(points.len() as u32).div_ceil(GROUP), 1, 1]);
                 }
                 encoder.copy_buffer_to_buffer(&results, 0, &back, 0, bytes);
                 gpu.queue.submit([encoder.finish()]);

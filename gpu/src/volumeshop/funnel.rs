@@ -213,15 +213,12 @@ impl FunnelPasses {
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             {
                 let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-                let [x, y, z] = self.groups;
-                pass.set_pipeline(&self.find);
                 pass.set_bind_group(0, &group, &[]);
                 pass.set_bind_group(1, canvas.data, &[]);
-                pass.dispatch_workgroups(x, y, z);
+                canvas.gpu.dispatch(&mut pass, &self.find, self.groups);
                 for pipeline in &self.smooth {
-                    pass.set_pipeline(pipeline);
                     pass.set_bind_group(0, &self.group, &[]);
-                    pass.dispatch_workgroups(x, y, z);
+                    canvas.gpu.dispatch(&mut pass, pipeline, self.groups);
                 }
             }
             canvas.gpu.queue.submit([encoder.finish()]);

@@ -29,8 +29,7 @@ struct Halo {
     side: real,
     most_frontal: real,
     floor: real,
-    // Spreading: N, delta, 1 for the gradient, 1 for a median before.
-    passes: real,
+    // Spreading: delta, 1 for the gradient, 1 for a median before.
     delta: real,
     from_gradient: real,
     has_median: real,

@@ -2,7 +2,9 @@
 //!
 //! Rays wait for each other after each group of planes. [`planes`] runs the passes of each group.
 
+mod groups;
 pub(crate) mod planes;
+mod stages;
 
 use crate::field::Scales;
 use crate::inputs::ObjectInputs;
@@ -14,12 +16,14 @@ use crate::shader::{Constant, Data, HaloStages, Kept, Shader};
 use crate::{GpuError, Precision, transfer, volumeshop};
 use drypoint_scene::glam::DVec3;
 use drypoint_scene::math;
+use drypoint_scene::measured::Measured;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::{
     HaloAccumulation, HaloKind, HaloParams, HaloSource, Object, SampleQuery, SeedSide, SeedValue, Shot,
 };
 use drypoint_scene::transfer::can_be_above_zero;
-use drypoint_scene::volume::Bricks;
+use drypoint_scene::volume::{BRICK, Bricks};
+use stages::{TILE, TILE_BYTES};
 
 /// The margin of the largest |n·v| of a seed, for the rounding of its powers.
 const FRONTAL_MARGIN: f64 = 1e-5;
@@ -60,7 +64,7 @@ pub(crate) fn add(
     shader.add(&[NUMBER, ELEMENTARY, module!("halos"), module!("seed"), module!("seed_value")]);
     shader.constant("HALOS", Constant::Int(list.len() as i64));
     if !is_part {
-        add_images(shader, shot, &mut lists);
+        add_images(shader, shot, precision);
     }
     // The seeds of a sample.
     let any = |is: fn(&HaloParams) -> bool| list.iter().any(is);
@@ -96,7 +100,7 @@ pub(crate) fn add(
         next.push("skip_masked");
     }
     if let Some(bricks) = &inputs.measured.bricks {
-        add_bricks(shader, list, object, bricks, rounding(scales, precision));
+        add_bricks(shader, &seeding(list, object, bricks, rounding(scales, precision)));
         next.push("skip_seed_brick");
     }
     if measures_once(shot, is_part) {
@@ -112,19 +116,8 @@ pub(crate) fn add(
 }
 
 /// Adds the images that halos spread in, and the rays that visit planes.
-fn add_images(shader: &mut Shader, shot: &Shot, lists: &mut Lists) {
+fn add_images(shader: &mut Shader, shot: &Shot, precision: Precision) {
     let list = &shot.halos.list;
-    // The taps of all passes.
-    let size = planes::image_size(shot);
-    let first_taps = lists.numbers.len();
-    let most_passes = planes::most_passes(list);
-    for halo in list {
-        for exponent in 0..most_passes.max(1) {
-            lists.numbers.extend(planes::taps(halo, exponent, size));
-        }
-    }
-    let alike =
-        |a: &HaloParams, b: &HaloParams| a.spread.passes == b.spread.passes && a.spread.stretch == b.spread.stretch;
     shader.add(&[
         module!("halo_planes_images"),
         module!("tiles"),
@@ -135,28 +128,12 @@ fn add_images(shader: &mut Shader, shot: &Shot, lists: &mut Lists) {
     shader.add(&[module!("plane_order"), module!("seed_rays"), module!("planes"), module!("spreading")]);
     shader.add(&[if shot.combination.is_some() { module!("among") } else { module!("alone") }]);
     shader.add(&[if ends_rays(shot) { module!("end_at_surface") } else { module!("no_end") }]);
-    for (name, value) in [
-        ("HALO_VECTORS", list.len().div_ceil(4)),
-        ("RAYS_X", size.rays[0]),
-        ("RAYS_Y", size.rays[1]),
-        ("IMAGE_X", size.image[0]),
-        ("IMAGE_Y", size.image[1]),
-        ("GUARD", size.guard),
-        ("TILE", size.tile),
-        ("TILES_X", size.tiles[0]),
-        ("TILES_Y", size.tiles[1]),
-        ("TILE_REACH", size.tile_reach),
-        ("FIRST_TAPS", first_taps),
-        ("MOST_PASSES", most_passes.max(1) as usize),
-    ] {
-        shader.constant(name, Constant::Int(value as i64));
-    }
     let emits = list.iter().any(|halo| halo.kind == HaloKind::Emissive);
     shader.constant("EMISSIVE", Constant::Bool(emits));
-    shader.constant(
-        "TAPS_ALIKE",
-        Constant::Bool(list.chunks(4).all(|four| four.iter().all(|halo| alike(halo, &four[0])))),
-    );
+    shader.constant("IN_MEMORY", Constant::Bool(true));
+    shader.constant("FROM_SEEDS", Constant::Bool(true));
+    shader.constant("TILE", Constant::Int(TILE as i64));
+    shader.constant("TILE_NUMBERS", Constant::Int((TILE_BYTES as u64 / precision.size()) as i64));
     shader.add(&[match list.iter().any(|halo| halo.spread.median) {
         true => module!("median"),
         false => module!("plain_seeds"),
@@ -219,7 +196,7 @@ fn parameters(halo: &HaloParams, halos: usize, lists: &mut Lists, place: &GridPl
     parameters.extend([seed.gradient_exponent, flag(by_curvature), side, most_frontal, halo.floor]);
     // Spreading.
     let from_gradient = flag(spread.from == HaloSource::Gradient);
-    parameters.extend([f64::from(spread.passes), spread.delta, from_gradient, flag(spread.median)]);
+    parameters.extend([spread.delta, from_gradient, flag(spread.median)]);
     // The profile.
     let node =
         |node: &drypoint_scene::shot::ProfileNode| [node.at, node.rgb[0], node.rgb[1], node.rgb[2], node.opacity];
@@ -238,10 +215,9 @@ fn measures_once(shot: &Shot, is_part: bool) -> bool {
     shot.combination.is_none() && !is_part
 }
 
-/// Adds the skipping of bricks in which no value seeds.
-fn add_bricks(shader: &mut Shader, list: &[HaloParams], object: &Object, bricks: &Bricks, slack: f64) {
-    let mut words = vec![0u32; bricks.ranges.len().div_ceil(32)];
-    for (i, &[lo, hi]) in bricks.ranges.iter().enumerate() {
+/// Whether values seed, for each brick of an object.
+fn seeding(list: &[HaloParams], object: &Object, bricks: &Bricks, slack: f64) -> Vec<bool> {
+    let in_range = |&[lo, hi]: &[f64; 2]| {
         let range = [lo - slack, hi + slack];
         let seeds = |halo: &HaloParams| match &halo.seed.value {
             None => true,
@@ -251,10 +227,42 @@ fn add_bricks(shader: &mut Shader, list: &[HaloParams], object: &Object, bricks:
                 can_be_above_zero(&at, &h, range, |at| at)
             }
         };
-        words[i / 32] |= u32::from(list.iter().any(seeds)) << (i % 32);
+        list.iter().any(seeds)
+    };
+    bricks.ranges.iter().map(in_range).collect()
+}
+
+/// Adds the skipping of bricks in which no value seeds.
+fn add_bricks(shader: &mut Shader, seeding: &[bool]) {
+    let mut words = vec![0u32; seeding.len().div_ceil(32)];
+    for (i, &seeds) in seeding.iter().enumerate() {
+        words[i / 32] |= u32::from(seeds) << (i % 32);
     }
     shader.add(&[module!("seed_bricks")]);
     shader.bind(33, "the bricks of seeds", Data::Words(words));
+}
+
+/// Boxes about all samples that can seed, one for each layer of bricks. Returns none if any sample can: without bricks, or with
+/// objects, whose own data seed, too.
+pub(crate) fn seed_boxes(
+    shot: &Shot,
+    measured: &Measured,
+    scales: &Scales,
+    precision: Precision,
+) -> Option<groups::SeedBoxes> {
+    let bricks = measured.bricks.as_ref().filter(|_| shot.combination.is_none())?;
+    let seeding = seeding(&shot.halos.list, shot.background(), bricks, rounding(scales, precision));
+    let [across, down, _] = bricks.dims;
+    let of_layer = |(z, layer): (usize, &[bool])| {
+        let places = layer.iter().enumerate().filter(|(_, seeds)| **seeds);
+        let boxes = places.map(|(i, _)| {
+            let low = DVec3::new((i % across) as f64, (i / across) as f64, z as f64) * BRICK as f64;
+            // Samples beyond the outer voxels belong to the bricks at the border.
+            [low - 1.0, low + (BRICK + 1) as f64]
+        });
+        boxes.reduce(|[low, high], [other_low, other_high]| [low.min(other_low), high.max(other_high)])
+    };
+    Some(seeding.chunks((across * down).max(1)).enumerate().filter_map(of_layer).collect())
 }
 
 /// Adds the functions that rays and seeds call at each step. From the shader's own functions, those that halos need are

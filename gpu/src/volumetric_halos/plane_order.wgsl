@@ -14,7 +14,7 @@ const NO_PLANE = 8000000;
 @group(2) @binding(1) var<storage, read_write> ray_numbers: array<real>;
 
 fn ray_place(number: i32, ray: i32) -> i32 {
-    return number * (RAYS_X * RAYS_Y) + ray;
+    return number * (plane_group.rays_x * plane_group.rays_y) + ray;
 }
 
 fn front_of(ray: i32) -> Front {
@@ -30,12 +30,12 @@ fn keep_front(ray: i32, front: Front) {
 }
 
 fn is_in_picture(at: vec2<i32>) -> bool {
-    return all(at >= vec2(0)) && at.x < RAYS_X && at.y < RAYS_Y;
+    return all(at >= vec2(0)) && at.x < plane_group.rays_x && at.y < plane_group.rays_y;
 }
 
 // Notes that something behind these planes would be seen on a ray.
 fn set_open(at: vec2<i32>) {
-    set_flag(TILE_OPEN, tile_of(at + GUARD), u32(plane_group.number + 1));
+    set_flag(TILE_OPEN, tile_of(at + plane_group.guard), u32(plane_group.number + 1));
 }
 
 // Starts a ray of the picture before all planes.
@@ -95,12 +95,12 @@ fn is_open(front: Front) -> bool {
 // The ray of a pixel of the picture, if these planes show something on it.
 fn resume_on_planes(at: vec2<i32>) -> RayOnPlanes {
     var own: RayOnPlanes;
-    own.number = at.y * RAYS_X + at.x;
+    own.number = at.y * plane_group.rays_x + at.x;
     own.next = NO_PLANE;
     if (ray_numbers[ray_place(RAY_OPACITY, own.number)] >= params.stop_at) {
         return own;
     }
-    let place = (at.y + GUARD) * IMAGE_X + at.x + GUARD;
+    let place = image_place(at + plane_group.guard, 0);
     watch(own.number, place);
     set_open(at);
     let next = i32(ray_numbers[ray_place(RAY_NEXT, own.number)]);
@@ -134,9 +134,9 @@ fn halo_pixels(@builtin(global_invocation_id) id: vec3<u32>) {
     var sum = vec4<real>();
     for (var part = 0; part < n * n; part++) {
         let at = pixel * n + vec2(part % n, part / n);
-        let number = at.y * RAYS_X + at.x;
+        let number = at.y * plane_group.rays_x + at.x;
         sum += over_background(front_of(number), behind);
-        let point = image_point(at + GUARD);
+        let point = image_point(at + plane_group.guard);
         resume_ray(number, ray_through(point.x, point.y));
         sum_intensities(number);
         end_ray(part);

@@ -1,6 +1,8 @@
 //! The passes of a picture with halos, one group of planes after the other ([HALO-1], [HALO-8], [HALO-9]).
 
-use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline};
+use super::groups::{PlaneGroup, SeedBoxes, groups, reached, seed_planes};
+use super::stages::{SOURCE, Stages, TILE, TILE_BYTES, dispatches};
+use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline, pipeline_with};
 use crate::canvas::Canvas;
 use crate::place::anchor;
 use crate::shader::Shader;
@@ -9,110 +11,68 @@ use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::picture::LayerKind;
 use drypoint_scene::shot::halo::{split_distance, tap_distance};
-use drypoint_scene::shot::{HaloKind, HaloParams, Shot};
+use drypoint_scene::shot::{HaloParams, Shot};
 use drypoint_scene::space::Grid;
 
-/// Pixels along the side of a workgroup.
+/// Pixels along the side of a workgroup of rays.
 const GROUP: u32 = 8;
 
 /// About the largest number of pixels that the passes of one submission write. It keeps drivers from assuming a fault.
 const PIXELS_AT_ONCE: u64 = 1 << 26;
 
 /// Bytes of a group of planes as a shader reads it.
-const GROUP_BYTES: u64 = 24;
+const GROUP_BYTES: u64 = 60;
 
-/// Lists of a pass over images, beside the scene's: scalars and the picture, groups of planes, states of rays and tiles, and
-/// three images.
+/// Lists of a pass over images, beside the scene's: scalars and the picture, groups of planes, states of rays and tiles, taps,
+/// and three images.
 pub(crate) const LISTS: usize = 2 + 8 + 3;
 
 /// The name of the list of groups in errors.
 const GROUP_LIST: &str = "the groups of planes";
 
-/// The largest number of tiles in each direction over which seeds of a tile spread.
-const TILE_REACH: usize = 1;
-
 /// Rays across and down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ImageSize {
+struct ImageSize {
     /// Rays of the picture.
-    pub(crate) rays: [usize; 2],
+    rays: [usize; 2],
     /// Rays of the images, with the guard band.
-    pub(crate) image: [usize; 2],
+    image: [usize; 2],
     /// Rays of the guard band on each side.
-    pub(crate) guard: usize,
-    /// Rays along the side of a tile of the images: whole workgroups.
-    pub(crate) tile: usize,
+    guard: usize,
     /// Tiles across and down.
-    pub(crate) tiles: [usize; 2],
-    /// Tiles in each direction that the guard band reaches.
-    pub(crate) tile_reach: usize,
+    tiles: [usize; 2],
 }
 
-/// The size of a shot's images.
-pub(crate) fn image_size(shot: &Shot) -> ImageSize {
-    let guard = ray::guard(shot);
-    let rays = shot.view.size.map(|n| n * shot.rays_across);
-    // Images that do not fit are refused by their bytes.
-    let image = rays.map(|n| n.saturating_add(guard.saturating_mul(2)));
-    let tile = guard.div_ceil(TILE_REACH * GROUP as usize).max(1) * GROUP as usize;
-    ImageSize { rays, image, guard, tile, tiles: image.map(|n| n.div_ceil(tile)), tile_reach: guard.div_ceil(tile) }
-}
-
-/// The largest N.
-pub(crate) fn most_passes(list: &[HaloParams]) -> u32 {
-    list.iter().map(|halo| halo.spread.passes).max().unwrap_or(0)
-}
-
-/// The distance of taps, as whole rays and a fraction.
-pub(crate) fn taps(halo: &HaloParams, exponent: u32, size: ImageSize) -> [f64; 2] {
-    let side = size.image[0].max(size.image[1]);
-    let (j, f) = split_distance(tap_distance(halo.spread.stretch, exponent), side);
-    [j as f64, f]
-}
-
-/// Planes that rays visit together: M of some halo, or fewer if groups of several halos end at different planes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct PlaneGroup {
-    /// The first plane and the last one, counted from the eye.
-    planes: [i64; 2],
-    /// Whether the groups of all halos end here.
-    all_end: bool,
-    /// Whether a later plane needs the intensities.
-    is_asked: bool,
-}
-
-/// The groups of planes of a picture whose samples lie on the planes first..=last.
-fn groups(halos: &[HaloParams], is_watched: impl Fn(usize) -> bool, [first, last]: [i64; 2]) -> Vec<PlaneGroup> {
-    let end_of = |halo: &HaloParams, k: i64| {
-        let every = halo.every.max(1);
-        (k.div_euclid(every) + 1) * every - 1
-    };
-    // Emissive halos go on through the group behind the last seeds.
-    let goes_on = |(i, halo): (usize, &HaloParams)| match halo.kind == HaloKind::Emissive || is_watched(i) {
-        true => end_of(halo, end_of(halo, last) + 1),
-        false => last,
-    };
-    let end_of_all = halos.iter().enumerate().map(goes_on).max().unwrap_or(last);
-    let mut groups = Vec::new();
-    let mut next = first;
-    while next <= end_of_all {
-        let end = halos.iter().map(|halo| end_of(halo, next)).min().unwrap_or(end_of_all).min(end_of_all);
-        let all_end = halos.iter().all(|halo| end_of(halo, end) == end);
-        groups.push(PlaneGroup { planes: [next, end], all_end, is_asked: end < end_of_all });
-        next = end + 1;
+impl ImageSize {
+    /// The size of a shot's images.
+    fn new(shot: &Shot) -> Self {
+        let guard = ray::guard(shot);
+        let rays = shot.view.size.map(|n| n * shot.rays_across);
+        // Images that do not fit are refused by their bytes.
+        let image = rays.map(|n| n.saturating_add(guard.saturating_mul(2)));
+        Self { rays, image, guard, tiles: image.map(|n| n.div_ceil(TILE)) }
     }
-    groups
-}
 
-/// The planes, counted from the eye, on which any ray can have a sample, an iso-surface or something inside the boxes
-/// with the corners `others`.
-fn reached(shot: &Shot, grid: &Grid, others: &[DVec3]) -> [i64; 2] {
-    let Shot { view, lattice, .. } = shot;
-    let corners = grid.world_corners().into_iter().chain(others.iter().copied());
-    let corners: Vec<DVec3> = corners.map(|corner| view.to_eye(corner)).collect();
-    let [near, far] = [f64::min, f64::max].map(|end| corners.iter().map(|p| -p.z).reduce(end).unwrap_or(0.0));
-    let plane = |depth: f64| (depth / lattice.step).floor() as i64;
-    [(plane(near) - 1).max(lattice.first(view)), plane(far) + 2]
+    /// The distance of taps, as whole rays and a fraction.
+    fn taps(&self, halo: &HaloParams, exponent: u32) -> (usize, f64) {
+        split_distance(tap_distance(halo.spread.stretch, exponent), self.image[0].max(self.image[1]))
+    }
+
+    /// Rays that the taps of each pass of a halo reach, by their exponents.
+    fn reaches(&self, halo: &HaloParams) -> Vec<usize> {
+        let taps = (0..halo.spread.passes).map(|exponent| self.taps(halo, exponent));
+        taps.map(|(whole, fraction)| whole + usize::from(fraction > 0.0)).collect()
+    }
+
+    /// The list of taps as a shader reads it: N of each halo, then whole rays and fractions by their exponents.
+    fn tap_list(&self, halos: &[HaloParams]) -> Vec<f64> {
+        let of_halo = |halo: &HaloParams| {
+            let taps = (0..SOURCE).map(|exponent| self.taps(halo, exponent));
+            let numbers = taps.flat_map(|(whole, fraction)| [whole as f64, fraction]);
+            std::iter::once(f64::from(halo.spread.passes)).chain(numbers).collect::<Vec<_>>()
+        };
+        halos.iter().flat_map(of_halo).collect()
+    }
 }
 
 /// The corners of the box about a mesh.
@@ -122,85 +82,72 @@ pub(crate) fn corners(mesh: &TriangleMesh) -> [DVec3; 8] {
     std::array::from_fn(|i| DVec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
 }
 
+/// Places that decide which planes rays visit.
+pub(crate) struct Extent {
+    /// Corners of boxes about all that can be seen beside the volume.
+    pub(crate) others: Vec<DVec3>,
+    /// Boxes about all samples that can seed; none if any sample can.
+    pub(crate) seeds: Option<SeedBoxes>,
+}
+
 /// Halos of a picture on a graphics card: images and states of rays, and the passes over them.
 pub(crate) struct HaloPlanes {
+    precision: Precision,
     size: ImageSize,
-    /// Number of vectors of the images. Each vector holds four halos.
-    fours: u32,
-    pixels: [u32; 2],
+    pixels: [usize; 2],
     halos: Vec<HaloParams>,
-    /// The largest N.
-    passes: u32,
     watched: Vec<bool>,
+    extent: Extent,
     groups: Vec<PlaneGroup>,
+    /// The dispatches after each group.
+    stages: Vec<Stages>,
     anchor: i64,
-    /// Corners of boxes about meshes and the data of objects.
-    other_corners: Vec<DVec3>,
     start: wgpu::ComputePipeline,
     visit: wgpu::ComputePipeline,
-    tiles: wgpu::ComputePipeline,
-    median: Option<wgpu::ComputePipeline>,
-    source: wgpu::ComputePipeline,
-    spread: wgpu::ComputePipeline,
-    end: wgpu::ComputePipeline,
+    /// Stages of each [kind](Stages::kind).
+    spread: [[wgpu::ComputePipeline; 2]; 2],
     finish: wgpu::ComputePipeline,
     params_layout: wgpu::BindGroupLayout,
     state_layout: wgpu::BindGroupLayout,
-    /// Numbers of rays, numbers of seeds' rays, then S, H and O.
-    state: [wgpu::Buffer; 5],
-    /// The tiles that passes visit.
-    tile_list: wgpu::Buffer,
+    image_layout: wgpu::BindGroupLayout,
+    /// Numbers that rays of the picture keep, and those of seeds' rays.
+    kept: [usize; 2],
     images: Images,
 }
 
-/// H₀ and two alternating images, as passes read and write them.
+/// Images and states of rays.
 struct Images {
-    /// Filtered seeds: written to the first image.
-    median: wgpu::BindGroup,
-    /// H₀ from the seeds, or from the first image.
+    /// Numbers of rays, numbers of seeds' rays, then S, H and O.
+    state: [wgpu::Buffer; 5],
+    /// From the seeds to H₀.
     source: wgpu::BindGroup,
-    /// From H₀ to the first image.
+    /// From H₀ to the first of two images that passes write in turn.
     first: wgpu::BindGroup,
     /// From the first image to the second one, and back.
     turns: [wgpu::BindGroup; 2],
 }
 
 impl HaloPlanes {
-    /// Makes the images and the passes of a shot. `text` is the whole shader, and `others` are corners of boxes about all that
-    /// can be seen beside the volume on `grid`. `further` is a further binding that rays of the picture read.
+    /// Makes the images and the passes of a shot. `text` is the whole shader. `further` is a further binding that rays of the
+    /// picture read.
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
-        (grid, others): (&Grid, Vec<DVec3>),
+        (grid, extent): (&Grid, Extent),
         further: Option<u32>,
         (shader, text): (&Shader, &str),
         data_layout: &wgpu::BindGroupLayout,
         precision: Precision,
     ) -> Result<Self, GpuError> {
-        let size = image_size(shot);
-        let halos = shot.halos.list.clone();
-        let fours = halos.len().div_ceil(4);
-        let pixels = (size.image[0] as u64).saturating_mul(size.image[1] as u64);
-        let rays = (size.rays[0] as u64).saturating_mul(size.rays[1] as u64);
-        let stages = shader.stages.halos.clone().unwrap_or_default();
-        // Buffers.
-        let storage = wgpu::BufferUsages::STORAGE;
-        let new = |what, numbers: u64, usage| empty(gpu, what, numbers.saturating_mul(precision.size()), usage);
-        let image = || new("an image of halos", pixels.saturating_mul(4 * fours as u64), storage);
-        let state = [
-            new("the list of rays", rays.saturating_mul(6 + stages.kept_numbers() as u64), storage)?,
-            new("the list of rays that seed", pixels.saturating_mul(2 + stages.seed_kept.len() as u64), storage)?,
-            image()?,
-            image()?,
-            image()?,
-        ];
-        let tile_list = empty(gpu, "the list of tiles", 4 * (size.tiles[0] as u64) * size.tiles[1] as u64, storage)?;
-        let [width, height] = shot.view.size;
-        // Layouts and passes.
+        let (size, halos) = (ImageSize::new(shot), shot.halos.list.clone());
+        let kept = shader.stages.halos.as_ref().map(|stages| [stages.kept_numbers(), stages.seed_kept.len()]);
+        let (kept, stages) = (kept.unwrap_or_default(), stages(&halos, size, precision));
         let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries };
             gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))
         };
+        let image_layout = layout("images", &[list_entry(0, true), list_entry(1, true), list_entry(2, false)])?;
+        let images = Images::new(gpu, &image_layout, (size, precision), halos.len(), stages.len(), kept)?;
         let mut of_picture = vec![list_entry(0, true), list_entry(1, false)];
         of_picture.extend(further.map(|binding| list_entry(binding, true)));
         let params_layout = layout("parameters", &of_picture)?;
@@ -212,86 +159,92 @@ impl HaloPlanes {
             },
             ..list_entry(0, true)
         };
-        let entries: Vec<_> = std::iter::once(group).chain((1..=7).map(|binding| list_entry(binding, false))).collect();
-        let state_layout = layout("rays", &entries)?;
-        let image_layout = layout("images", &[list_entry(0, true), list_entry(1, true), list_entry(2, false)])?;
-        let pass = |entry_point, with_images: bool| {
-            let mut groups = vec![&params_layout, data_layout, &state_layout];
-            groups.extend(with_images.then_some(&image_layout));
-            pipeline(gpu, text.to_owned(), entry_point, &groups)
+        let of_state = (1..=7).map(|binding| list_entry(binding, binding == 7));
+        let state_layout = layout("rays", &std::iter::once(group).chain(of_state).collect::<Vec<_>>())?;
+        let groups = [&params_layout, data_layout, &state_layout, &image_layout];
+        let pass = |entry_point| pipeline(gpu, text.to_owned(), entry_point, &groups[..3]);
+        let spread = |in_memory: f64, from_seeds: f64| {
+            let constants = [("IN_MEMORY", in_memory), ("FROM_SEEDS", from_seeds)];
+            pipeline_with(gpu, text.to_owned(), "halo_spread", &groups, &constants)
         };
-        let has_median = halos.iter().any(|halo| halo.spread.median);
-        let images = Images::new(gpu, &image_layout, [image()?, image()?, image()?])?;
         let watched = (0..halos.len()).map(|i| shot.layers.contains(&LayerKind::Halo(i))).collect();
         let mut planes = Self {
+            precision,
             size,
-            fours: fours as u32,
-            pixels: [width as u32, height as u32],
-            passes: most_passes(&halos),
+            pixels: shot.view.size,
             halos,
             watched,
+            extent,
             groups: Vec::new(),
+            stages,
             anchor: 0,
-            other_corners: others,
-            start: pass("halo_start", false)?,
-            visit: pass("halo_planes", false)?,
-            tiles: pass("halo_tiles", false)?,
-            median: has_median.then(|| pass("halo_median", true)).transpose()?,
-            source: pass("halo_source", true)?,
-            spread: pass("halo_spread", true)?,
-            end: pass("halo_end", true)?,
-            finish: pass("halo_pixels", false)?,
+            start: pass("halo_start")?,
+            visit: pass("halo_planes")?,
+            spread: [[spread(0.0, 0.0)?, spread(0.0, 1.0)?], [spread(1.0, 0.0)?, spread(1.0, 1.0)?]],
+            finish: pass("halo_pixels")?,
             params_layout,
             state_layout,
-            state,
-            tile_list,
+            image_layout,
+            kept,
             images,
         };
-        planes.turn(shot, grid);
+        planes.look(shot, grid);
         Ok(planes)
     }
 
-    /// Whether the images and the passes serve another shot with the same text and layers.
-    pub(crate) fn fit(&self, shot: &Shot) -> bool {
-        let list = &shot.halos.list;
-        image_size(shot) == self.size
-            && list.len() == self.halos.len()
-            && list.iter().any(|halo| halo.spread.median) == self.median.is_some()
+    /// Takes another shot with the same text and layers, and places of its own if it is not only seen from another camera.
+    pub(crate) fn turn(
+        &mut self,
+        gpu: &Gpu,
+        shot: &Shot,
+        (grid, extent): (&Grid, Option<Extent>),
+    ) -> Result<(), GpuError> {
+        let (size, halos) = (ImageSize::new(shot), &shot.halos.list);
+        let stages = stages(halos, size, self.precision);
+        if size != self.size || stages.len() != self.stages.len() {
+            let of = (size, self.precision);
+            self.images = Images::new(gpu, &self.image_layout, of, halos.len(), stages.len(), self.kept)?;
+        }
+        self.halos.clone_from(halos);
+        (self.size, self.stages, self.pixels) = (size, stages, shot.view.size);
+        if let Some(extent) = extent {
+            self.extent = extent;
+        }
+        self.look(shot, grid);
+        Ok(())
     }
 
-    /// Takes another shot, which [fits](Self::fit).
-    pub(crate) fn change(&mut self, shot: &Shot, grid: &Grid, others: Vec<DVec3>) {
-        self.halos.clone_from(&shot.halos.list);
-        (self.passes, self.other_corners) = (most_passes(&self.halos), others);
-        self.turn(shot, grid);
-    }
-
-    /// Takes the camera of another shot.
-    pub(crate) fn turn(&mut self, shot: &Shot, grid: &Grid) {
-        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.other_corners));
+    /// Groups the planes that a camera sees.
+    fn look(&mut self, shot: &Shot, grid: &Grid) {
+        let seeds = self.extent.seeds.as_ref().map(|boxes| seed_planes(shot, grid, boxes));
+        let can_seed = |[near, far]: [i64; 2]| {
+            let meets = |&[first, last]: &[i64; 2]| near <= last && first <= far;
+            seeds.as_ref().is_none_or(|ranges| ranges.iter().any(meets))
+        };
+        self.groups = groups(&self.halos, |i| self.watched[i], reached(shot, grid, &self.extent.others), can_seed);
         self.anchor = anchor(shot, grid) as i64;
     }
 
     /// Draws a frame. `further` is the list of the further binding.
     pub(crate) fn draw(&self, canvas: &Canvas<'_>, further: Option<(u32, &wgpu::Buffer)>) -> Result<(), GpuError> {
         let gpu = canvas.gpu;
-        let stride = u64::from(gpu.device.limits().min_storage_buffer_offset_alignment).max(GROUP_BYTES);
-        let count = self.groups.len() as u64 * u64::from(self.passes.max(1));
+        let stride = GROUP_BYTES.next_multiple_of(gpu.device.limits().min_storage_buffer_offset_alignment.into());
+        let count = (self.groups.len() * self.stages.len()) as u64;
         check_bytes(gpu, GROUP_LIST, count.saturating_mul(stride))?;
-        let (records, firsts) = self.records(stride);
-        let group_list = buffer(gpu, GROUP_LIST, &records, wgpu::BufferUsages::STORAGE)?;
-        let tiles = self.size.tiles[0] * self.size.tiles[1];
-        let flags = vec![0; 4 * (4 * tiles + self.groups.len())];
-        let flags = buffer(gpu, "the list of tiles", &flags, wgpu::BufferUsages::STORAGE)?;
+        let storage = wgpu::BufferUsages::STORAGE;
+        let group_list = buffer(gpu, GROUP_LIST, &self.records(stride), storage)?;
+        let flags = vec![0; 4 * (2 + self.halos.len()) * self.size.tiles[0] * self.size.tiles[1]];
+        let flags = buffer(gpu, "the list of tiles", &flags, storage)?;
+        let taps = buffer(gpu, "the taps", &self.precision.bytes(&self.size.tap_list(&self.halos)), storage)?;
         let [params, state] = gpu.attempt("the halos", || {
             let mut params_entries = vec![entry(0, canvas.params), entry(1, &canvas.picture.out)];
             params_entries.extend(further.map(|(binding, list)| entry(binding, list)));
             let planes =
                 wgpu::BufferBinding { buffer: &group_list, offset: 0, size: wgpu::BufferSize::new(GROUP_BYTES) };
             let planes = wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::Buffer(planes) };
-            let state = (1..).zip(&self.state).map(|(binding, buffer)| entry(binding, buffer));
-            let tiles = [entry(6, &flags), entry(7, &self.tile_list)];
-            let state_entries: Vec<_> = std::iter::once(planes).chain(state).chain(tiles).collect();
+            let state = (1..).zip(self.images.state.iter().chain([&flags, &taps]));
+            let state = state.map(|(binding, buffer)| entry(binding, buffer));
+            let state_entries: Vec<_> = std::iter::once(planes).chain(state).collect();
             let group = |layout, entries: &[wgpu::BindGroupEntry<'_>]| {
                 gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("halos"), layout, entries })
             };
@@ -306,9 +259,10 @@ impl HaloPlanes {
             let mut end = at;
             let mut written = 0;
             while end < self.groups.len() && written < PIXELS_AT_ONCE {
-                let group = &self.groups[end];
-                let planes = (group.planes[1] - group.planes[0] + 1).unsigned_abs();
-                written += image_pixels * (2 * planes + u64::from((self.passes + 2) * self.fours));
+                let PlaneGroup { planes: [first, last], spreads } = self.groups[end];
+                let of_halo = |halo: &HaloParams| if spreads { u64::from(halo.spread.passes) + 2 } else { 0 };
+                let spread: u64 = self.halos.iter().map(of_halo).sum();
+                written += image_pixels.saturating_mul(2 * (last - first + 1).unsigned_abs() + spread);
                 end += 1;
             }
             let is_first = at == 0;
@@ -318,27 +272,23 @@ impl HaloPlanes {
                 run.set_bind_group(1, canvas.data, &[]);
                 run.set_bind_group(2, &state, &[0]);
                 if is_first {
-                    run.set_pipeline(&self.start);
-                    run.dispatch_workgroups(of_image[0], of_image[1], 1);
+                    gpu.dispatch(run, &self.start, of_image);
                 }
-                for (group, first) in self.groups[at..end].iter().zip(&firsts[at..end]) {
-                    let record = |exponent: u32| ((first + u64::from(exponent)) * stride) as u32;
-                    run.set_bind_group(2, &state, &[record(0)]);
-                    run.set_pipeline(&self.visit);
-                    run.dispatch_workgroups(of_image[0], of_image[1], 1);
-                    if group.is_asked {
-                        self.generate(run, &state, record);
+                for number in at..end {
+                    let record = |stage: usize| [((number * self.stages.len() + stage) as u64 * stride) as u32];
+                    run.set_bind_group(2, &state, &record(0));
+                    gpu.dispatch(run, &self.visit, of_image);
+                    if self.groups[number].spreads {
+                        self.spread(gpu, run, |run, stage| run.set_bind_group(2, &state, &record(stage)));
                     }
                 }
                 if is_last {
-                    let of_pixels = across(self.pixels.map(|n| n as usize));
-                    run.set_pipeline(&self.finish);
-                    run.dispatch_workgroups(of_pixels[0], of_pixels[1], 1);
+                    gpu.dispatch(run, &self.finish, across(self.pixels));
                 }
             };
             canvas.submit([is_first, is_last], run, |picture, encoder| {
                 if is_last {
-                    picture.copy_back(encoder, 0, self.pixels[1] as usize);
+                    picture.copy_back(encoder, 0, self.pixels[1]);
                 }
             })?;
             canvas.report(end as f64 / self.groups.len().max(1) as f64)?;
@@ -350,59 +300,72 @@ impl HaloPlanes {
         Ok(())
     }
 
-    /// Converts the seeds of groups that end to intensities.
-    fn generate(&self, run: &mut wgpu::ComputePass<'_>, state: &wgpu::BindGroup, record: impl Fn(u32) -> u32) {
+    /// Converts the seeds of a group that ends to intensities.
+    fn spread(&self, gpu: &Gpu, run: &mut wgpu::ComputePass<'_>, bind: impl Fn(&mut wgpu::ComputePass<'_>, usize)) {
+        let Images { source, first, turns, .. } = &self.images;
         let [across, down] = self.size.tiles.map(|n| n as u32);
-        run.set_pipeline(&self.tiles);
-        run.dispatch_workgroups(across.div_ceil(GROUP), down.div_ceil(GROUP), 1);
-        let side = self.size.tile as u32 / GROUP;
-        let [x, y, z] = [across * side, down * side, self.fours];
-        if let Some(median) = &self.median {
-            run.set_pipeline(median);
-            run.set_bind_group(3, &self.images.median, &[]);
-            run.dispatch_workgroups(x, y, z);
-        }
-        run.set_pipeline(&self.source);
-        run.set_bind_group(3, &self.images.source, &[]);
-        run.dispatch_workgroups(x, y, z);
-        let last = self.passes.saturating_sub(1);
-        for i in 0..=last {
-            run.set_pipeline(if i == last { &self.end } else { &self.spread });
-            run.set_bind_group(2, state, &[record(last - i)]);
-            let images = if i == 0 { &self.images.first } else { &self.images.turns[(i as usize - 1) % 2] };
-            run.set_bind_group(3, images, &[]);
-            run.dispatch_workgroups(x, y, z);
+        for stage in 0..self.stages.len() {
+            bind(run, stage);
+            run.set_bind_group(3, [source, first].get(stage).copied().unwrap_or(&turns[stage % 2]), &[]);
+            let [in_memory, from_seeds] = self.stages[stage].kind().map(usize::from);
+            let pipeline = &self.spread[in_memory][from_seeds];
+            gpu.dispatch(run, pipeline, [across, down, self.halos.len() as u32]);
         }
     }
 
-    /// The groups of planes as shaders read them, one record for each exponent of taps, and the offset of each group's
-    /// first record.
-    fn records(&self, stride: u64) -> (Vec<u8>, Vec<u64>) {
-        let mut firsts = Vec::new();
+    /// The groups of planes as shaders read them, one record for each dispatch of spreading.
+    fn records(&self, stride: u64) -> Vec<u8> {
+        // Sizes are read where nothing is visited, too.
+        let none = [PlaneGroup { planes: [0, -1], spreads: false }];
+        let groups = if self.groups.is_empty() { &none[..] } else { &self.groups };
+        let begin = groups[0].planes[0];
+        let ImageSize { rays, image, guard, tiles } = self.size;
+        let sizes = [rays[0], rays[1], image[0], image[1], guard, tiles[0], tiles[1], guard.div_ceil(TILE)];
         let mut records = Vec::new();
-        for (number, group) in (0..).zip(&self.groups) {
-            firsts.push(records.len() as u64 / stride);
-            for exponent in 0..self.passes.max(1) {
-                let [first, last] = group.planes;
-                let all_end = i64::from(group.all_end);
+        for (number, PlaneGroup { planes: [first, last], .. }) in (0..).zip(groups) {
+            for Stages { from, to } in &self.stages {
                 // Planes are counted in 23 bits.
-                let words = [first - self.anchor, last - self.anchor, last, i64::from(exponent), number, all_end];
-                let words = words.map(|word| word as i32);
-                records.extend(words.iter().flat_map(|word| word.to_le_bytes()));
+                let planes = [first - self.anchor, last - self.anchor, *last, begin, number];
+                let stages = [from, to].map(|&stage| i64::from(stage));
+                let words = planes.into_iter().chain(stages).chain(sizes.map(|n| n as i64));
+                records.extend(words.flat_map(|word| (word as i32).to_le_bytes()));
                 records.resize(records.len().next_multiple_of(stride as usize), 0);
             }
         }
-        records.resize(records.len().max(stride as usize), 0);
-        (records, firsts)
+        records
     }
 }
 
+/// The dispatches after a group of planes.
+fn stages(halos: &[HaloParams], size: ImageSize, precision: Precision) -> Vec<Stages> {
+    let reaches: Vec<Vec<usize>> = halos.iter().map(|halo| size.reaches(halo)).collect();
+    dispatches(&reaches, TILE_BYTES / precision.size() as usize)
+}
+
 impl Images {
+    /// Images of a size for some halos, with those that this many dispatches hand on to each other. `kept` are numbers that
+    /// rays keep.
     fn new(
         gpu: &Gpu,
         layout: &wgpu::BindGroupLayout,
-        [source, first, second]: [wgpu::Buffer; 3],
+        (size, precision): (ImageSize, Precision),
+        halos: usize,
+        dispatches: usize,
+        kept: [usize; 2],
     ) -> Result<Self, GpuError> {
+        let [rays, pixels] = [size.rays, size.image].map(|[x, y]| (x as u64).saturating_mul(y as u64));
+        let new = |what, numbers: u64| empty(gpu, what, numbers.saturating_mul(precision.size()));
+        let image = |layers: usize| new("an image of halos", pixels.saturating_mul(layers as u64));
+        let state = [
+            new("the list of rays", rays.saturating_mul(6 + kept[0] as u64))?,
+            new("the list of rays that seed", pixels.saturating_mul(2 + kept[1] as u64))?,
+            image(2 * halos)?,
+            image(halos)?,
+            image(halos)?,
+        ];
+        // H₀ and two more: an image that no dispatch reads is as small as can be.
+        let between = |number: usize| image(if number < dispatches { halos } else { 0 });
+        let (source, first, second) = (between(1)?, between(2)?, between(3)?);
         // H₀, the image that is read, the image that is written.
         let group = |[h0, before, after]: [&wgpu::Buffer; 3]| {
             let entries = [entry(0, h0), entry(1, before), entry(2, after)];
@@ -410,7 +373,7 @@ impl Images {
             gpu.device.create_bind_group(&descriptor)
         };
         gpu.attempt("the halos", || Self {
-            median: group([&second, &second, &first]),
+            state,
             source: group([&first, &first, &source]),
             first: group([&source, &source, &first]),
             turns: [group([&source, &first, &second]), group([&source, &second, &first])],
@@ -419,56 +382,13 @@ impl Images {
 }
 
 /// A buffer that shaders fill.
-fn empty(gpu: &Gpu, what: &'static str, bytes: u64, usage: wgpu::BufferUsages) -> Result<wgpu::Buffer, GpuError> {
+fn empty(gpu: &Gpu, what: &'static str, bytes: u64) -> Result<wgpu::Buffer, GpuError> {
     check_bytes(gpu, what, bytes)?;
     let descriptor = wgpu::BufferDescriptor {
         label: Some(what),
         size: bytes.max(16).next_multiple_of(16),
-        usage,
+        usage: wgpu::BufferUsages::STORAGE,
         mapped_at_creation: false,
     };
     gpu.attempt(what, || gpu.device.create_buffer(&descriptor))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use drypoint_scene::shot::{HaloAccumulation, HaloSeed, HaloSource, HaloSpread, SeedSide};
-
-    fn halo(kind: HaloKind, every: i64) -> HaloParams {
-        let side = SeedSide::Power { exponent: 1.0 };
-        HaloParams {
-            name: "halo".into(),
-            kind,
-            seed: HaloSeed { value: None, direction: None, focus: None, labels: None, gradient_exponent: 1.0, side },
-            spread: HaloSpread { from: HaloSource::Gradient, passes: 4, delta: 0.8, stretch: 1.0, median: false },
-            profile: Vec::new(),
-            opacity: 1.0,
-            floor: 0.0,
-            every,
-            accumulate: HaloAccumulation::Max,
-            tints: Vec::new(),
-        }
-    }
-
-    /// Groups follow each other without a gap, end where some halo's do, and go on until no halo shines any more.
-    #[test]
-    fn groups_of_planes_by_hand() {
-        let planes = |halos: &[HaloParams], ends: [i64; 2]| {
-            groups(halos, |_| false, ends).iter().map(|group| group.planes).collect::<Vec<_>>()
-        };
-        let (dark, bright) = (|every| halo(HaloKind::Occlusive, every), |every| halo(HaloKind::Emissive, every));
-        assert_eq!(planes(&[dark(4)], [-3, 6]), [[-3, -1], [0, 3], [4, 6]]);
-        // Seeds of plane 6 shine behind the planes 8 to 11.
-        assert_eq!(planes(&[bright(4)], [2, 6]), [[2, 3], [4, 7], [8, 11]]);
-        assert_eq!(planes(&[dark(2), bright(3)], [0, 3]), [[0, 1], [2, 2], [3, 3], [4, 5], [6, 7], [8, 8]]);
-        let all = groups(&[dark(2), bright(3)], |_| false, [0, 3]);
-        assert_eq!(
-            all.iter().map(|group| group.all_end).collect::<Vec<_>>(),
-            [false, false, false, true, false, false]
-        );
-        assert_eq!(all.iter().map(|group| group.is_asked).collect::<Vec<_>>(), [true, true, true, true, true, false]);
-        // Nothing is reached.
-        assert_eq!(planes(&[dark(4)], [5, 2]), [[0; 2]; 0]);
-    }
 }

@@ -6,14 +6,14 @@
 @compute @workgroup_size(8, 8)
 fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = vec2<i32>(id.xy);
-    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+    if (!is_in_image(at)) {
         return;
     }
-    let place = at.y * IMAGE_X + at.x;
+    let place = image_place(at, 0);
     var own: RayOnPlanes;
     own.next = NO_PLANE;
-    if (is_in_picture(at - GUARD)) {
-        own = resume_on_planes(at - GUARD);
+    if (is_in_picture(at - plane_group.guard)) {
+        own = resume_on_planes(at - plane_group.guard);
     }
     let visits = own.next <= plane_group.last || own.glows;
     var next_seed = i32(seed_ray_numbers[seed_place(0, place)]);

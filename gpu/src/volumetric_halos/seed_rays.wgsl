@@ -8,30 +8,32 @@ const SEED_KEPT = 2;
 @group(2) @binding(2) var<storage, read_write> seed_ray_numbers: array<real>;
 
 fn seed_place(number: i32, ray: i32) -> i32 {
-    return number * (IMAGE_X * IMAGE_Y) + ray;
+    return number * (plane_group.image_x * plane_group.image_y) + ray;
 }
 
 // Adds a seed of a halo to those of the group's planes before ([HALO-8]).
 fn plant(halo: i32, place: i32, s: real) {
-    let at = vector_of(halo, place);
-    let before = seed_image[at][halo % 4];
-    let sum = select(max(before, s), before + s / halos[halo].every, halos[halo].is_mean == 1.0);
-    seed_image[at][halo % 4] = sum;
-    set_flag(TILE_SEEDED, tile_of(vec2(place % IMAGE_X, place / IMAGE_X)), 1u);
+    let planes = halo_group(halo);
+    let at = vec2(place % plane_group.image_x, place / plane_group.image_x);
+    let planted = image_place(at, seed_layer(halo, planes));
+    let before = seed_image[planted];
+    seed_image[planted] = select(max(before, s), before + s / halos[halo].every, halos[halo].is_mean == 1.0);
+    set_flag(TILE_SEEDED + halo, tile_of(at), u32(planes));
 }
 
 // Starts all rays before all planes.
 @compute @workgroup_size(8, 8)
 fn halo_start(@builtin(global_invocation_id) id: vec3<u32>) {
     let at = vec2<i32>(id.xy);
-    if (at.x >= IMAGE_X || at.y >= IMAGE_Y) {
+    if (!is_in_image(at)) {
         return;
     }
-    let place = at.y * IMAGE_X + at.x;
-    for (var i = place; i < IMAGE_X * IMAGE_Y * HALO_VECTORS; i += IMAGE_X * IMAGE_Y) {
-        seed_image[i] = vec4<real>();
-        halo_image[i] = vec4<real>();
-        occlusion_image[i] = vec4<real>();
+    let place = image_place(at, 0);
+    for (var halo = 0; halo < HALOS; halo++) {
+        seed_image[image_place(at, 2 * halo)] = 0.0;
+        seed_image[image_place(at, 2 * halo + 1)] = 0.0;
+        halo_image[image_place(at, halo)] = 0.0;
+        occlusion_image[image_place(at, halo)] = 0.0;
     }
     let point = image_point(at);
     let ray = ray_through(point.x, point.y);
@@ -42,8 +44,8 @@ fn halo_start(@builtin(global_invocation_id) id: vec3<u32>) {
     keep_seed(place);
     // At first seeds can reach every ray.
     set_flag(TILE_NEAR, tile_of(at), 1u);
-    let own = at - GUARD;
+    let own = at - plane_group.guard;
     if (is_in_picture(own)) {
-        start_ray(own.y * RAYS_X + own.x, ray);
+        start_ray(own.y * plane_group.rays_x + own.x, ray);
     }
 }

@@ -1,29 +1,24 @@
-// Square tiles of the images: passes visit those alone in which an image differs from zero ([RAY-2]).
+// Square tiles of the images: an intensity is computed only where seeds can reach a tile ([RAY-2]).
 // Glue: Tiles of images.
 
-// Flags of tiles, each kind in a list of its own: seeds wait in the tile; an image can differ from zero; the number of the
-// last group, counted from 1, behind which a ray was open; seeds can reach a ray that is open.
-const TILE_SEEDED = 0;
-const TILE_ACTIVE = 1;
-const TILE_OPEN = 2;
-const TILE_NEAR = 3;
-// Then the number of tiles on each group's list.
-const TILE_COUNTS = 4;
+// Numbers of tiles, each kind in a list of its own. The last group of planes, counted from 1, behind which a ray was open; 1
+// where seeds can reach a ray that is open; then, for each halo, its last group that has seeds in the tile.
+const TILE_OPEN = 0;
+const TILE_NEAR = 1;
+const TILE_SEEDED = 2;
 
 @group(2) @binding(6) var<storage, read_write> tile_flags: array<atomic<u32>>;
-// The tiles that passes visit.
-@group(2) @binding(7) var<storage, read_write> tile_list: array<u32>;
 
-fn flag_place(flag: i32, tile: i32) -> i32 {
-    return flag * (TILES_X * TILES_Y) + tile;
+fn flag_place(flag: i32, tile: vec2<i32>) -> i32 {
+    return (flag * plane_group.tiles_y + tile.y) * plane_group.tiles_x + tile.x;
 }
 
 // The tile of a pixel of the images.
-fn tile_of(at: vec2<i32>) -> i32 {
-    return at.y / TILE * TILES_X + at.x / TILE;
+fn tile_of(at: vec2<i32>) -> vec2<i32> {
+    return at / TILE;
 }
 
-fn set_flag(flag: i32, tile: i32, value: u32) {
+fn set_flag(flag: i32, tile: vec2<i32>, value: u32) {
     let place = flag_place(flag, tile);
     if (atomicLoad(&tile_flags[place]) != value) {
         atomicStore(&tile_flags[place], value);
@@ -35,44 +30,36 @@ fn is_near_open(at: vec2<i32>) -> bool {
     return atomicLoad(&tile_flags[flag_place(TILE_NEAR, tile_of(at))]) != 0u;
 }
 
-// The pixel of a listed tile that an invocation stands for; one beyond the images where the list has ended.
-fn listed_pixel(group: vec3<u32>, own: vec3<u32>) -> vec2<i32> {
-    let groups = TILE / 8;
-    let number = i32(group.y) * (TILES_X * groups) + i32(group.x);
-    let listed = number / (groups * groups);
-    if (listed >= i32(atomicLoad(&tile_flags[flag_place(TILE_COUNTS, 0) + plane_group.number]))) {
-        return vec2(IMAGE_X, IMAGE_Y);
-    }
-    let tile = i32(tile_list[listed]);
-    let part = number % (groups * groups);
-    return vec2(tile % TILES_X, tile / TILES_X) * TILE + vec2(part % groups, part / groups) * 8 + vec2<i32>(own.xy);
+// What is known of a tile.
+struct TileState {
+    // The last group of planes behind which a ray of the tile was open, and a ray that its seeds can reach.
+    open: u32,
+    open_near: u32,
+    // The halo's last group whose seeds can reach the tile.
+    seeded: u32,
 }
 
-// Lists the tiles that the seeds of a group can reach, and those that were reached before: there images become zero.
-@compute @workgroup_size(8, 8)
-fn halo_tiles(@builtin(global_invocation_id) id: vec3<u32>) {
-    let at = vec2<i32>(id.xy);
-    if (at.x >= TILES_X || at.y >= TILES_Y) {
-        return;
+var<workgroup> newest_flags: array<atomic<u32>, 2>;
+var<workgroup> tile_found: TileState;
+
+// The state of a tile, which all invocations of its workgroup find together.
+fn tile_state(tile: vec2<i32>, halo: i32, own: i32) -> TileState {
+    if (own < 2) {
+        atomicStore(&newest_flags[own], 0u);
     }
-    let tile = at.y * TILES_X + at.x;
-    var seeded = 0u;
-    var open = 0u;
-    for (var y = max(at.y - TILE_REACH, 0); y <= min(at.y + TILE_REACH, TILES_Y - 1); y++) {
-        for (var x = max(at.x - TILE_REACH, 0); x <= min(at.x + TILE_REACH, TILES_X - 1); x++) {
-            let other = y * TILES_X + x;
-            seeded = max(seeded, atomicLoad(&tile_flags[flag_place(TILE_SEEDED, other)]));
-            open = max(open, atomicLoad(&tile_flags[flag_place(TILE_OPEN, other)]));
+    workgroupBarrier();
+    let side = 2 * plane_group.tile_reach + 1;
+    for (var i = own; i < side * side; i += TILE * TILE) {
+        let other = tile - plane_group.tile_reach + vec2(i % side, i / side);
+        if (all(other >= vec2(0)) && other.x < plane_group.tiles_x && other.y < plane_group.tiles_y) {
+            atomicMax(&newest_flags[0], atomicLoad(&tile_flags[flag_place(TILE_OPEN, other)]));
+            atomicMax(&newest_flags[1], atomicLoad(&tile_flags[flag_place(TILE_SEEDED + halo, other)]));
         }
     }
-    let is_reached = seeded != 0u;
-    let was_reached = atomicLoad(&tile_flags[flag_place(TILE_ACTIVE, tile)]) != 0u;
-    if (is_reached || was_reached) {
-        let place = flag_place(TILE_COUNTS, 0) + plane_group.number;
-        tile_list[atomicAdd(&tile_flags[place], 1u)] = u32(tile);
+    workgroupBarrier();
+    if (own == 0) {
+        let open = atomicLoad(&tile_flags[flag_place(TILE_OPEN, tile)]);
+        tile_found = TileState(open, atomicLoad(&newest_flags[0]), atomicLoad(&newest_flags[1]));
     }
-    // Halos whose groups go on keep their intensities.
-    let stays = is_reached || (was_reached && plane_group.all_end == 0);
-    set_flag(TILE_ACTIVE, tile, select(0u, 1u, stays));
-    set_flag(TILE_NEAR, tile, select(0u, 1u, open > u32(plane_group.number)));
+    return workgroupUniformLoad(&tile_found);
 }

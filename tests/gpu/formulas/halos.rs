@@ -271,7 +271,7 @@ fn spreading() {
     let whole = modules(&["volumetric_halos/spreading"]);
     let from = whole.find("// H_i = delta F_i").unwrap();
     let kernel = ShaderKernel {
-        modules: whole[from..whole.find("// A pass of four halos").unwrap()].to_owned(),
+        modules: whole[from..whole.find("// A pass at a pixel").unwrap()].to_owned(),
         results: &["spread(x[0], x[1], x[2])"],
         ..ShaderKernel::default()
     };
@@ -290,9 +290,9 @@ fn medians() {
     let from = whole.find("// A column of three in order").unwrap();
     let column = |i: usize| {
         let [a, b, c] = [3 * i, 3 * i + 1, 3 * i + 2];
-        format!("ordered_column(vec4<real>(x[{a}]), vec4<real>(x[{b}]), vec4<real>(x[{c}]))")
+        format!("ordered_column(x[{a}], x[{b}], x[{c}])")
     };
-    let result = format!("median_of_nine({}, {}, {}).z", column(0), column(1), column(2));
+    let result = format!("median_of_nine({}, {}, {})", column(0), column(1), column(2));
     let kernel = ShaderKernel {
         modules: whole[from..whole.find("fn seed_column").unwrap()].to_owned(),
         results: &[&result],
@@ -314,14 +314,20 @@ fn medians() {
 fn ends_of_groups() {
     let Some(gpu) = gpu() else { return };
     let whole = modules(&["volumetric_halos/halo_planes_images"]);
-    let from = whole.find("// Whether a group of M planes").unwrap();
+    let from = whole.find("// The group of M planes").unwrap();
     let kernel = ShaderKernel {
-        modules: whole[from..whole.find("// The pixel that a ray of the images").unwrap()].to_owned(),
-        results: &["select(real(0.0), real(1.0), group_ends(i32(x[0]), i32(x[1])))"],
+        modules: whole[from..whole.find("// The group of a halo").unwrap()].to_owned(),
+        results: &[
+            "select(real(0.0), real(1.0), group_ends(i32(x[0]), i32(x[1])))",
+            "real(group_of(i32(x[0]), i32(x[1])))",
+        ],
         ..ShaderKernel::default()
     };
     let table: Vec<[f64; 2]> =
         (-20..20).flat_map(|k| [1, 2, 3, 7].map(|every| [f64::from(k), f64::from(every)])).collect();
-    let truth = |&[k, every]: &[f64; 2]| [f64::from(u8::from((k as i64 + 1).rem_euclid(every as i64) == 0))];
+    let truth = |&[k, every]: &[f64; 2]| {
+        let ends = (k as i64 + 1).rem_euclid(every as i64) == 0;
+        [f64::from(u8::from(ends)), (k / every).floor()]
+    };
     hold("groups", errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0), 0.0);
 }
