@@ -3,6 +3,7 @@
 use crate::{Gpu, GpuError, Precision};
 use drypoint_scene::math::{exponent, scale_by_power_of_two};
 use drypoint_scene::measured::{Measured, PaddedNumbers};
+use half::f16;
 use std::sync::Arc;
 
 /// A volume as textures of numbers, uploaded once for any number of renderers.
@@ -29,15 +30,18 @@ impl UploadedVolume {
             return Err(GpuError::NoDouble { adapter: gpu.name().to_owned() });
         }
         let e = scale_exponent(measured);
-        let lists = [Some(&measured.numbers), measured.voxels.as_ref(), measured.smoothed.as_ref()];
-        let numbers = lists.into_iter().flatten().map(|numbers| numbers.data.len() as u64).sum::<u64>();
-        let texture = |numbers: &Arc<PaddedNumbers>| upload(gpu, numbers, e, precision);
+        let mut bytes = 0;
+        let mut texture = |numbers: &Arc<PaddedNumbers>| {
+            let texel = Texel::of(numbers, e, precision);
+            bytes += numbers.data.len() as u64 * u64::from(texel.bytes());
+            upload(gpu, numbers, e, texel)
+        };
         Ok(Self {
             numbers: texture(&measured.numbers)?,
-            voxels: measured.voxels.as_ref().map(texture).transpose()?,
-            smoothed: measured.smoothed.as_ref().map(texture).transpose()?,
+            voxels: measured.voxels.as_ref().map(&mut texture).transpose()?,
+            smoothed: measured.smoothed.as_ref().map(&mut texture).transpose()?,
             precision,
-            bytes: numbers * precision.size(),
+            bytes,
         })
     }
 
@@ -47,14 +51,66 @@ impl UploadedVolume {
     }
 }
 
+/// A number in a texture. Shaders add the parts of a texel, and cannot tell which kind it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Texel {
+    /// f16, where it holds all numbers exactly: those of 8 bits, and whole numbers over a range of 2¹¹.
+    Half,
+    /// f32.
+    Single,
+    /// The number in f32, and in f32 what is left of it.
+    Double,
+}
+
+impl Texel {
+    /// The smallest texel that holds the numbers times 2^−e to the precision.
+    fn of(numbers: &PaddedNumbers, e: i32, precision: Precision) -> Self {
+        let fits = |&c: &f64| {
+            let c = scale_by_power_of_two(c, -e);
+            f16::from_f64(c).to_f64() == c
+        };
+        match precision {
+            _ if numbers.data.iter().all(fits) => Self::Half,
+            Precision::Single => Self::Single,
+            Precision::Double => Self::Double,
+        }
+    }
+
+    fn format(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Half => wgpu::TextureFormat::R16Float,
+            Self::Single => wgpu::TextureFormat::R32Float,
+            Self::Double => wgpu::TextureFormat::Rg32Float,
+        }
+    }
+
+    fn bytes(self) -> u32 {
+        match self {
+            Self::Half => 2,
+            Self::Single => 4,
+            Self::Double => 8,
+        }
+    }
+
+    /// Appends the bytes of a number.
+    fn write(self, c: f64, bytes: &mut Vec<u8>) {
+        let high = c as f32;
+        match self {
+            Self::Half => bytes.extend(f16::from_f64(c).to_le_bytes()),
+            Self::Single => bytes.extend(high.to_le_bytes()),
+            Self::Double => bytes.extend([high, (c - f64::from(high)) as f32].into_iter().flat_map(f32::to_le_bytes)),
+        }
+    }
+}
+
 /// The largest number of numbers in a volume. Indices in lists of cells have 31 bits.
 const MOST_NUMBERS: usize = 1 << 31;
 
 /// Number of planes that are uploaded together.
 const PLANES_AT_ONCE: usize = 16;
 
-/// A 3D texture of numbers times 2^−e. In f64 a texel has two parts.
-fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> Result<wgpu::TextureView, GpuError> {
+/// A 3D texture of numbers times 2^−e.
+fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, texel: Texel) -> Result<wgpu::TextureView, GpuError> {
     let most = gpu.device.limits().max_texture_dimension_3d as usize;
     let dims = numbers.dims;
     if dims.iter().any(|&n| n > most) || dims.iter().product::<usize>() > MOST_NUMBERS {
@@ -62,10 +118,6 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
     }
     let [x, y, z] = dims.map(|n| n as u32);
     let size = wgpu::Extent3d { width: x, height: y, depth_or_array_layers: z };
-    let (format, texel) = match precision {
-        Precision::Single => (wgpu::TextureFormat::R32Float, 4),
-        Precision::Double => (wgpu::TextureFormat::Rg32Float, 8),
-    };
     let texture = gpu.attempt("the volume", || {
         gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some("volume"),
@@ -73,24 +125,15 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D3,
-            format,
+            format: texel.format(),
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         })
     })?;
     // A few planes at a time, so that the bytes are not all in memory at once.
     for (plane, numbers) in numbers.data.chunks_exact(dims[0] * dims[1]).enumerate() {
-        let scaled = numbers.iter().map(|&c| scale_by_power_of_two(c, -e));
-        let bytes: Vec<u8> = match precision {
-            Precision::Single => scaled.flat_map(|c| (c as f32).to_le_bytes()).collect(),
-            Precision::Double => scaled
-                .flat_map(|c| {
-                    let high = c as f32;
-                    [high, (c - f64::from(high)) as f32]
-                })
-                .flat_map(f32::to_le_bytes)
-                .collect(),
-        };
+        let mut bytes = Vec::with_capacity(numbers.len() * texel.bytes() as usize);
+        numbers.iter().for_each(|&c| texel.write(scale_by_power_of_two(c, -e), &mut bytes));
         gpu.attempt("the volume", || {
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo {
@@ -100,7 +143,11 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
                     aspect: wgpu::TextureAspect::All,
                 },
                 &bytes,
-                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(x * texel), rows_per_image: Some(y) },
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(x * texel.bytes()),
+                    rows_per_image: Some(y),
+                },
                 wgpu::Extent3d { depth_or_array_layers: 1, ..size },
             );
         })?;
@@ -110,4 +157,45 @@ fn upload(gpu: &Gpu, numbers: &PaddedNumbers, e: i32, precision: Precision) -> R
         }
     }
     Ok(texture.create_view(&wgpu::TextureViewDescriptor::default()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texel(numbers: &[f64], precision: Precision) -> Texel {
+        let numbers = PaddedNumbers::new(numbers.to_vec(), [numbers.len(), 1, 1], 0);
+        Texel::of(&numbers, exponent(numbers.largest), precision)
+    }
+
+    #[test]
+    fn a_texel_is_the_smallest_that_holds_all_numbers() {
+        let bytes: Vec<f64> = (-255..=255).map(f64::from).collect();
+        let words: Vec<f64> = (0..=2047).map(f64::from).collect();
+        for precision in [Precision::Single, Precision::Double] {
+            assert_eq!(texel(&bytes, precision), Texel::Half);
+            assert_eq!(texel(&words, precision), Texel::Half);
+        }
+        assert_eq!(texel(&[0.0, 2049.0, 4000.0], Precision::Single), Texel::Single);
+        assert_eq!(texel(&[0.0, 1.0 / 3.0], Precision::Double), Texel::Double);
+    }
+
+    #[test]
+    fn parts_of_a_texel_add_up_to_the_number() {
+        let sum = |texel: Texel, c: f64| {
+            let mut bytes = Vec::new();
+            texel.write(c, &mut bytes);
+            assert_eq!(bytes.len(), texel.bytes() as usize);
+            match texel {
+                Texel::Half => f16::from_le_bytes([bytes[0], bytes[1]]).to_f64(),
+                _ => bytes.chunks(4).map(|part| f64::from(f32::from_le_bytes(part.try_into().unwrap()))).sum(),
+            }
+        };
+        for i in -255..=255 {
+            let c = f64::from(i) / 256.0;
+            assert_eq!([sum(Texel::Half, c), sum(Texel::Single, c)], [c, c]);
+        }
+        let third = 1.0 / 3.0;
+        assert!((sum(Texel::Double, third) - third).abs() < 2f64.powi(-49));
+    }
 }

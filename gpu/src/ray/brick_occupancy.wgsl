@@ -13,13 +13,9 @@ fn skip_brick(ray: Ray, sample: Sample) -> i32 {
         return sample.k;
     }
     // The way to the farther sides of those bricks, less a little.
-    var way = real(4.0e6);
-    for (var axis = 0; axis < 3; axis++) {
-        let d = ray.along[axis] * ray.depth_step;
-        let side = real(BRICK * (brick[axis] + select(1 - far, far, d > 0.0)));
-        if (abs(d) > 1.0e-20) {
-            way = min(way, (side - sample.position[axis]) / d - 0.01);
-        }
-    }
-    return sample.k + max(i32(ceil(way)), 1);
+    let d = ray.along * ray.depth_step;
+    let side = BRICK * (brick + select(vec3(1 - far), vec3(far), d > vec3<real>()));
+    let parallel = abs(d) <= vec3<real>(1.0e-20);
+    let way = select((vec3<real>(side) - sample.position) / d, vec3<real>(4.0e6), parallel);
+    return sample.k + max(i32(ceil(min(way.x, min(way.y, way.z)) - 0.01)), 1);
 }
