@@ -84,10 +84,10 @@ fn positions() -> Vec<DVec3> {
 fn memberships(bencher: Bencher) {
     let volume = volume(128);
     let selection = Selection::from_volume(&volume).expect("a few bricks");
-    let (memberships, at) = (Memberships::new(&selection.memberships), positions());
+    let (memberships, at) = (Memberships::<f64>::new(&selection.memberships), positions());
     bencher
         .counter(ItemsCount::new(at.len()))
-        .bench_local(|| at.iter().fold(0.0, |sum, &p| sum + memberships.at(black_box(p))));
+        .bench_local(|| at.iter().fold(0.0, |sum, &p| sum + memberships.at(Vec3::from_glam(black_box(p)))));
 }
 
 #[divan::bench]

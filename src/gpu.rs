@@ -115,6 +115,16 @@ impl<'a> GpuJob<'a> {
         self.edited(&|text| text)
     }
 
+    /// Returns the text of the shader with numbers of a precision.
+    ///
+    /// # Errors
+    /// An effect has no shader.
+    pub fn text(&self, precision: Precision) -> Result<String, Failure> {
+        let data = self.job.inputs(&self.uploaded.shot);
+        let text = CardRenderer::text(self.gpu, precision, &self.uploaded.shot, &self.uploaded.inputs(&data));
+        text.map_err(|error| self.failure(&error))
+    }
+
     /// Returns a renderer with an edited shader. Tests use it to check that a comparison notices a fault.
     ///
     /// # Errors

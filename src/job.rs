@@ -427,8 +427,8 @@ impl Job {
         room_for_table(scene)
     }
 
-    /// Returns the data that a shot names.
-    pub(crate) fn inputs(&self, shot: &Shot) -> Inputs<'_> {
+    /// Returns the data that a shot names, for a renderer.
+    pub fn inputs(&self, shot: &Shot) -> Inputs<'_> {
         Inputs {
             meshes: &self.meshes,
             ..self.objects.inputs(shot, Inputs::of(self.assets.of(&self.volume), self.backdrop(shot)))

@@ -16,7 +16,6 @@ use drypoint_scene::fragments::Fragments;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::Pass;
 use drypoint_scene::shot::KappaSource;
-use drypoint_scene::tables::RaysPerPixel;
 use serde::Serialize;
 use std::fmt;
 
@@ -64,6 +63,8 @@ pub struct Stage {
     pub double: Option<f64>,
     /// The largest difference with the card in f32.
     pub single: f64,
+    /// The largest ratio of a decided pixel's difference in f32 to its bound; none if no bound is known.
+    pub share: Option<f64>,
 }
 
 /// Colours in f32 against the bounds of their errors.
@@ -117,7 +118,10 @@ impl fmt::Display for Verdict {
 impl Validation {
     /// Whether a bound is exceeded, or the algorithms differ.
     pub fn is_wrong(&self) -> bool {
-        self.parts_at.is_some() || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
+        let exceeds = |stage: &Stage| stage.share.is_some_and(|share| share > 1.0);
+        self.parts_at.is_some()
+            || self.stages.iter().any(exceeds)
+            || self.bounded.as_ref().is_some_and(|bounded| bounded.exceeded > 0)
     }
 
     /// Returns the verdict.
@@ -141,11 +145,13 @@ impl Validation {
 impl fmt::Display for Validation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "adapter: {}", self.adapter)?;
-        writeln!(f, "{:<10} {:<18} {:>10} {:>12} {:>12}", "stage", "layer", "largest", "f64 differs", "f32 differs")?;
+        let [stage, layer, largest, double, single] = ["stage", "layer", "largest", "f64 differs", "f32 differs"];
+        writeln!(f, "{stage:<10} {layer:<18} {largest:>10} {double:>12} {single:>12} {:>9}", "of bound")?;
         for stage in &self.stages {
             let double = stage.double.map_or_else(|| "no f64".to_owned(), |double| format!("{double:.1e}"));
+            let share = stage.share.map_or_else(|| "no bound".to_owned(), |share| format!("{share:.3}"));
             let Stage { name, layer, largest, single, .. } = stage;
-            writeln!(f, "{name:<10} {layer:<18} {largest:>10.3e} {double:>12} {single:>12.1e}")?;
+            writeln!(f, "{name:<10} {layer:<18} {largest:>10.3e} {double:>12} {single:>12.1e} {share:>9}")?;
         }
         match self.parts_at {
             Some(stage) => writeln!(f, "the {stage} is the first stage that parts in f64")?,
@@ -185,8 +191,7 @@ impl fmt::Display for Bounded {
     }
 }
 
-/// Compares a graphics card with the reference on a job's scene. Rays at edges are left out: with `samples = "auto"`
-/// each pixel has one ray.
+/// Compares a graphics card with the reference on a job's scene.
 ///
 /// # Errors
 /// The errors of [`Job::renderer`], and those of the adapter.
@@ -199,64 +204,133 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
 /// # Errors
 /// The errors of [`validate`].
 pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
-    let mut scene = job.scene.clone();
-    if scene.picture.samples == RaysPerPixel::Auto {
-        scene.picture.samples = RaysPerPixel::Across(1);
-    }
-    // Bounds are those of the colours alone.
-    scene.picture.layers = vec![LayerKind::Beauty];
-    let plain = job.variant(scene.clone());
-    let stages = stages(job, &plain)?;
-    scene.picture.layers = stages.iter().map(|(_, layer)| *layer).collect();
-    let layered = job.variant(scene);
-    // Stages, in f64 where the card has it, and in f32.
-    let mut reference = job.renderer_of(&layered)?;
-    let lines = lines_inside(job, &reference)?;
-    reference.merge(lines.clone());
-    let (truth, _) = reference.again(&|_| ());
-    let double = match gpu.has_double() {
-        true => Some(drawn(job, gpu, &layered, Precision::Double, lines.clone(), &|text| text)?),
-        false => None,
-    };
-    let single = drawn(job, gpu, &layered, Precision::Single, lines.clone(), edit)?;
-    let compared: Vec<Stage> = stages
-        .iter()
-        .map(|&(name, layer)| {
-            let differs = |other: &Picture| largest_difference(&truth, other, layer);
-            let largest = truth.layer(layer).map_or(0.0, |layer| {
-                layer
-                    .channels
-                    .iter()
-                    .flatten()
-                    .filter(|c| c.is_finite())
-                    .fold(0.0, |largest: f64, c| largest.max(c.abs()))
-            });
-            Stage {
-                name,
-                layer: layer.to_string(),
-                largest,
-                double: double.as_ref().map(differs),
-                single: differs(&single),
+    Truth::new(job, &[])?.validate(gpu, edit)
+}
+
+/// All that a comparison takes from the reference on one scene. Cards and edited shaders are compared with it.
+pub struct Truth<'j> {
+    job: &'j Job,
+    /// The scene with the beauty alone.
+    plain: SceneVariant,
+    /// The scene with the layers of all stages.
+    layered: SceneVariant,
+    /// Whether there are layers beside those of the stages.
+    has_further: bool,
+    stages: Vec<(&'static str, LayerKind)>,
+    lines: Option<Fragments>,
+    /// The picture with the layers of all stages.
+    picture: Picture,
+    /// The bounds in f32, or the reason why there are none.
+    bounds: Result<Bounds, String>,
+}
+
+impl<'j> Truth<'j> {
+    /// Draws the scene of a job and derives its bounds. `further` are layers to compare beside those of the stages.
+    ///
+    /// # Errors
+    /// The errors of [`Job::renderer`].
+    pub fn new(job: &'j Job, further: &[LayerKind]) -> Result<Self, Failure> {
+        let mut scene = job.scene.clone();
+        scene.picture.layers = vec![LayerKind::Beauty];
+        let plain = job.variant(scene.clone());
+        let mut stages = stages(job, &plain)?;
+        for &layer in further {
+            if stages.iter().all(|(_, known)| *known != layer) {
+                stages.push(("layer", layer));
             }
-        })
-        .collect();
-    let parts = |stage: &&Stage| stage.double.is_some_and(|double| double > SAME * stage.largest);
-    let parts_at = compared.iter().find(parts).map(|stage| stage.name);
-    // Colours in f32 against their bounds.
-    let (bounded, unbounded) = match bounds(job, &plain)? {
-        Ok(_) if lines.is_some() => {
-            (None, Some("lines inside the volume: no bound of f32 errors is known for them yet".to_owned()))
         }
-        Ok(bounds) => (Some(against(&bounds, &single)), None),
-        Err(why) => (None, Some(why)),
-    };
-    let pictures = [truth, single];
-    let [a, b] = pictures.each_ref().map(Image::from);
-    let whole = compare(&a, &b, &CompareOptions::default())
-        .map_err(|error| Failure::picture(&error, job.scene.given.position("picture")))?;
-    let rms = whole.layers.iter().find(|layer| layer.name == "beauty").map_or(f64::NAN, |layer| layer.rms);
-    let (adapter, flip) = (gpu.describe(), whole.flip.unwrap_or(f64::NAN));
-    Ok(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures })
+        scene.picture.layers = stages.iter().map(|(_, layer)| *layer).collect();
+        let layered = job.variant(scene);
+        let mut reference = job.renderer_of(&layered)?;
+        let lines = lines_inside(job, &reference)?;
+        reference.merge(lines.clone());
+        let (picture, _) = reference.again(&|_| ());
+        // Beside objects, meshes and halos the colours alone have bounds.
+        let with_layers = bounds(job, &layered, lines.clone())?;
+        let bounds = match with_layers {
+            Err(_) if further.is_empty() => bounds(job, &plain, lines.clone())?,
+            found => found,
+        };
+        Ok(Self { job, plain, layered, has_further: !further.is_empty(), stages, lines, picture, bounds })
+    }
+
+    /// Compares a graphics card with the reference, with edited shaders in f32.
+    ///
+    /// # Errors
+    /// The errors of the adapter.
+    pub fn validate(&self, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
+        let on_card = |precision| GpuJob::of(self.job, gpu, &self.layered, precision);
+        let double = match gpu.has_double() {
+            true => Some(self.drawn(&on_card(Precision::Double)?, &|text| text)?),
+            false => None,
+        };
+        let single = self.drawn(&on_card(Precision::Single)?, edit)?;
+        let compared: Vec<Stage> = self
+            .stages
+            .iter()
+            .map(|&(name, layer)| {
+                let differs = |other: &Picture| largest_difference(&self.picture, other, layer);
+                let (largest, double) = (self.largest(layer), double.as_ref().map(differs));
+                let share = self.bounds.as_ref().ok().and_then(|bounds| largest_share(bounds, &single, layer));
+                Stage { name, layer: layer.to_string(), largest, double, single: differs(&single), share }
+            })
+            .collect();
+        let parts = |stage: &&Stage| stage.double.is_some_and(|double| double > SAME * stage.largest);
+        let parts_at = compared.iter().find(parts).map(|stage| stage.name);
+        let bounded = self.bounds.as_ref().ok().map(|bounds| against(bounds, &single));
+        let pictures = [self.picture.clone(), single];
+        let [a, b] = pictures.each_ref().map(Image::from);
+        let whole = compare(&a, &b, &CompareOptions::default())
+            .map_err(|error| Failure::picture(&error, self.job.scene.given.position("picture")))?;
+        let rms = whole.layers.iter().find(|layer| layer.name == "beauty").map_or(f64::NAN, |layer| layer.rms);
+        let (adapter, flip) = (gpu.describe(), whole.flip.unwrap_or(f64::NAN));
+        let unbounded = self.bounds.as_ref().err().cloned();
+        Ok(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures })
+    }
+
+    /// The scene on a graphics card, for [`notices`](Self::notices): colours in f32 if bounds are known and no further layers
+    /// are compared, else all stages in f64.
+    ///
+    /// # Errors
+    /// The errors of the adapter.
+    pub fn on_card(&self, gpu: &'j Gpu) -> Result<GpuJob<'j>, Failure> {
+        match self.of_colours() {
+            Some(_) => GpuJob::of(self.job, gpu, &self.plain, Precision::Single),
+            None => GpuJob::of(self.job, gpu, &self.layered, Precision::Double),
+        }
+    }
+
+    /// The bounds, if colours alone are compared.
+    fn of_colours(&self) -> Option<&Bounds> {
+        self.bounds.as_ref().ok().filter(|_| !self.has_further)
+    }
+
+    /// Whether an edited shader shows [on a card](Self::on_card): a pixel exceeds its bound in f32, or a stage parts in f64
+    /// ([`SAME`]).
+    ///
+    /// # Errors
+    /// The errors of the adapter.
+    pub fn notices(&self, on_card: &GpuJob<'_>, edit: &dyn Fn(String) -> String) -> Result<bool, Failure> {
+        let drawn = self.drawn(on_card, edit)?;
+        let parts = |layer| largest_difference(&self.picture, &drawn, layer) > SAME * self.largest(layer);
+        Ok(match self.of_colours() {
+            Some(bounds) => against(bounds, &drawn).exceeded > 0,
+            None => self.stages.iter().any(|&(_, layer)| parts(layer)),
+        })
+    }
+
+    /// The largest number of a layer.
+    fn largest(&self, layer: LayerKind) -> f64 {
+        let channels = self.picture.layer(layer).into_iter().flat_map(|layer| layer.channels.iter().flatten());
+        channels.filter(|c| c.is_finite()).fold(0.0, |largest: f64, c| largest.max(c.abs()))
+    }
+
+    /// A card's picture with an edited shader.
+    fn drawn(&self, on_card: &GpuJob<'_>, edit: &dyn Fn(String) -> String) -> Result<Picture, Failure> {
+        let mut renderer = on_card.edited(edit)?;
+        let picture = renderer.merge(self.lines.clone()).and_then(|()| renderer.frame(&|_| ()));
+        picture.map_err(|error| on_card.failure(&error))
+    }
 }
 
 /// The stages of a scene, with their layers. First come stages of the first visible sample of a ray, which do not
@@ -276,21 +350,6 @@ fn stages(job: &Job, variant: &SceneVariant) -> Result<Vec<(&'static str, LayerK
     Ok(of_samples.chain(of_halos).chain([("colour", LayerKind::Beauty)]).collect())
 }
 
-/// A card's picture of a scene with other knobs.
-fn drawn(
-    job: &Job,
-    gpu: &Gpu,
-    variant: &SceneVariant,
-    precision: Precision,
-    lines: Option<Fragments>,
-    edit: &dyn Fn(String) -> String,
-) -> Result<Picture, Failure> {
-    let drawn = GpuJob::of(job, gpu, variant, precision)?;
-    let mut renderer = drawn.edited(edit)?;
-    let picture = renderer.merge(lines).and_then(|()| renderer.frame(&|_| ()));
-    picture.map_err(|error| drawn.failure(&error))
-}
-
 /// The lines inside the volume of a job. Returns none if it has none.
 fn lines_inside(job: &Job, renderer: &Renderer<'_>) -> Result<Option<Fragments>, Failure> {
     if !job.plan.has_pass(Pass::MergedStrokes) {
@@ -304,9 +363,9 @@ fn lines_inside(job: &Job, renderer: &Renderer<'_>) -> Result<Option<Fragments>,
 }
 
 /// The reference's picture with its bounds, or the reason why there are none.
-fn bounds(job: &Job, variant: &SceneVariant) -> Result<Result<Bounds, String>, Failure> {
+fn bounds(job: &Job, variant: &SceneVariant, lines: Option<Fragments>) -> Result<Result<Bounds, String>, Failure> {
     let shot = job.shot_of(variant)?;
-    match Renderer::bounds(&shot, job.inputs(&shot), RayOrigin::Middle) {
+    match Renderer::bounds(&shot, job.inputs(&shot), lines, RayOrigin::Middle) {
         Ok(bounds) => Ok(Ok(bounds)),
         Err(unknown @ BoundsError::Unknown { .. }) => Ok(Err(unknown.to_string())),
         Err(BoundsError::Render(error)) => Err(render_failure(&error, &job.scene)),
@@ -319,6 +378,21 @@ fn largest_difference(a: &Picture, b: &Picture, layer: LayerKind) -> f64 {
     let channels = |picture: &Picture| picture.layer(layer).map_or_else(Vec::new, |layer| layer.channels.clone());
     let pairs = channels(a).into_iter().flatten().zip(channels(b).into_iter().flatten());
     pairs.map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
+}
+
+/// The largest ratio of a decided pixel's difference in a layer to its bound; none of a layer without bounds. Numbers
+/// without a bound are left out.
+fn largest_share(bounds: &Bounds, single: &Picture, layer: LayerKind) -> Option<f64> {
+    let channels = |picture: &'_ Picture| picture.layer(layer).map(|layer| layer.channels.clone());
+    let (values, errors, single) = (channels(&bounds.values)?, channels(&bounds.errors)?, channels(single)?);
+    let is_decided = |at: &usize| bounds.undecided[*at].is_none();
+    let of_channel = |c: usize| {
+        (0..values[c].len()).filter(is_decided).fold(0.0, |most: f64, at| {
+            let (difference, bound) = (apart(values[c][at], single[c][at]), errors[c][at]);
+            if difference == 0.0 || bound == f64::INFINITY { most } else { most.max(difference / bound) }
+        })
+    };
+    Some((0..values.len()).map(of_channel).fold(0.0, f64::max))
 }
 
 /// |a − b|. It is infinite if only one number is finite, or only one is NaN.
@@ -383,7 +457,7 @@ mod tests {
     use super::*;
 
     fn validation(double: Option<f64>, bounded: Option<Bounded>) -> Validation {
-        let stage = Stage { name: "colour", layer: "beauty".into(), largest: 1.0, double, single: 1e-6 };
+        let stage = Stage { name: "colour", layer: "beauty".into(), largest: 1.0, double, single: 1e-6, share: None };
         let picture = || Picture { width: 0, height: 0, layers: Vec::new() };
         Validation {
             adapter: "a card".into(),

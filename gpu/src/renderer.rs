@@ -89,6 +89,15 @@ impl CardRenderer {
         Self::compiled(gpu, volumes, shot, inputs, (shader, scales, text))
     }
 
+    /// Returns the text of a shot's shader.
+    ///
+    /// # Errors
+    /// An effect has no shader, or data do not fit.
+    pub fn text(gpu: &Gpu, precision: Precision, shot: &Shot, inputs: &CardInputs<'_>) -> Result<String, GpuError> {
+        let composed = compose::shader(shot, &drawn_layers(shot), inputs, precision, gpu.interpolation());
+        composed.map(|(shader, _)| shader.text(precision))
+    }
+
     /// Compiles the pipelines of a shot and uploads its data.
     fn compiled(
         gpu: &Gpu,

@@ -13,5 +13,15 @@ mod generator;
 #[allow(dead_code)]
 mod over_two;
 
+#[path = "../common/halos.rs"]
+mod halo_scenes;
+mod halos;
+#[path = "../common/meshes.rs"]
+mod mesh_scenes;
+mod meshes;
+#[path = "../common/objects.rs"]
+mod object_scenes;
+mod objects;
 mod random;
 mod scenes;
+mod texts;

@@ -6,8 +6,8 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::lighting::LightingPreset;
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::tables::{
-    Axis, BlendSpace, Clip, Contours, Iso, Kappa, Length, Node, NodeColor, Number, Over, Row, RowAt, Shading,
-    ShadingModel, SignFlip, SilhouetteShading, StyleMipmaps, Surface, SurfaceLook, Transparency,
+    Axis, BlendSpace, Clip, Contours, Iso, Kappa, Kernel, Length, Node, NodeColor, Number, Over, RaysPerPixel, Row,
+    RowAt, Shading, ShadingModel, SignFlip, SilhouetteShading, StyleMipmaps, Surface, SurfaceLook, Table, Transparency,
 };
 use std::collections::BTreeMap;
 
@@ -62,6 +62,25 @@ fn surface(look: SurfaceLook) -> Stage {
     regular().with(|s| s.surface = Some(Surface { iso: Iso::Value(4.0), look, ..Surface::default() }))
 }
 
+/// An iso-surface alone, of a kernel whose cells are no cubics along a ray.
+fn smooth(kernel: Kernel) -> Stage {
+    surface(SurfaceLook::Phong).with(|s| {
+        s.sampling.kernel = kernel;
+        s.transfer = None;
+    })
+}
+
+/// A cut through the middle.
+fn cut(cap: Option<[f64; 4]>) -> Clip {
+    let (point, normal) = (DVec3::new(11.7, 11.1, 12.9), DVec3::new(0.4, -0.8, 0.3));
+    Clip { point: Some(point), normal: Some(normal), cap, ..Clip::default() }
+}
+
+/// A function that is read from a table.
+fn from_table(stage: Stage, entries: usize) -> Stage {
+    stage.with_transfer(|t| t.table = Table::Entries(entries))
+}
+
 /// All kinds, by name.
 fn kinds() -> Vec<(&'static str, Stage)> {
     let all = |kappa| {
@@ -98,13 +117,23 @@ fn kinds() -> Vec<(&'static str, Stage)> {
         ("two quantities", over_two()),
         ("iso-surface", surface(SurfaceLook::Phong)),
         ("iso-surface, toon", surface(SurfaceLook::Toon)),
+        ("clip plane", shaded(|_| {}).with(|s| s.clips = vec![cut(None)])),
+        ("table", from_table(shaded(|_| {}), 64)),
+        ("table of 4096", from_table(shaded(|_| {}), 4096)),
+        ("table of styles", from_table(all(Kappa::Ray), 256)),
+        ("rays at edges", shaded(|_| {}).with(|s| s.picture.samples = RaysPerPixel::Auto)),
+        ("rays at edges, toon", surface(SurfaceLook::Toon).with(|s| s.picture.samples = RaysPerPixel::Auto)),
+        ("iso-surface, cut", surface(SurfaceLook::Phong).with(|s| s.clips = vec![cut(None)])),
         (
-            "clip plane",
-            shaded(|_| {}).with(|s| {
-                let (point, normal) = (DVec3::new(11.7, 11.1, 12.9), DVec3::new(0.4, -0.8, 0.3));
-                s.clips = vec![Clip { point: Some(point), normal: Some(normal), ..Clip::default() }];
+            "iso-surface alone, capped",
+            surface(SurfaceLook::Phong).with(|s| {
+                s.clips = vec![cut(Some([0.9, 0.1, 0.2, 0.5]))];
+                s.transfer = None;
             }),
         ),
+        ("iso-surface, B-spline", smooth(Kernel::BsplineSmooth)),
+        ("iso-surface, Catmull–Rom", smooth(Kernel::CatmullRom)),
+        ("iso-surface, B-spline, cut", smooth(Kernel::BsplineSmooth).with(|s| s.clips = vec![cut(None)])),
     ]
 }
 

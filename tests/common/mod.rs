@@ -238,8 +238,13 @@ impl Stage {
 
     /// The picture with the bounds of an f32 renderer.
     pub(crate) fn bounds(&self, origin: RayOrigin) -> Result<Bounds, BoundsError> {
+        self.bounds_among(None, origin)
+    }
+
+    /// The picture with lines inside it, with the bounds of an f32 renderer.
+    pub(crate) fn bounds_among(&self, lines: Option<Fragments>, origin: RayOrigin) -> Result<Bounds, BoundsError> {
         let shot = self.resolved(self.view());
-        self.with_inputs(&shot, |inputs| Renderer::bounds(&shot, inputs, origin))
+        self.with_inputs(&shot, |inputs| Renderer::bounds(&shot, inputs, lines, origin))
     }
 
     /// Hands over the data that a shot of this scene names.

@@ -1,6 +1,8 @@
 //! Volumetric halos (Bruckner and Gröller 2007): shaders in f64 equal the reference to 10⁻⁹.
 
 use crate::double::{differences, load};
+use crate::halo_scenes::TORUS;
+pub(crate) use crate::halo_scenes::{FIVE, scene};
 use crate::two_quantities::{labels, styles, torus};
 use crate::{field, gpu};
 use drypoint::frames::Frames;
@@ -8,30 +10,6 @@ use drypoint::gpu::{GpuFrames, GpuJob, Precision};
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::scene::space::Grid;
-
-/// A torus seen from the side, so that it lies before itself.
-const TORUS: &str = r##"
-drypoint = 1
-[volume]
-phantom = { name = "torus", size = 32 }
-[camera]
-direction = [0.3, 1, -0.4]
-[picture]
-size = [64, 48]
-PICTURE
-[transfer]
-kind = "regular"
-nodes = [{ at = 100, color = "#804020", opacity = 0 }, { at = 128, color = "#ffcc88", opacity = 0.3 },
-         { at = 140, color = "#88ccff", opacity = 0.9 }]
-[shading]
-"##;
-
-/// Scenes of a torus with further tables, and keys in the place of `samples`.
-pub(crate) fn scene(picture: &str, tables: &str) -> String {
-    let samples = if picture.contains("samples") { "" } else { "samples = 1\n" };
-    let background = if picture.contains("background") { "" } else { "background = \"#d0c8b0\"\n" };
-    TORUS.replace("PICTURE\n", &format!("{samples}{background}{picture}\n")) + tables
-}
 
 /// Compares scenes: a name, keys of the picture, further tables.
 fn check(scenes: &[(&str, &str, &str)]) {
@@ -70,33 +48,6 @@ fn groups_of_planes() {
         ),
     ]);
 }
-
-/// Five halos of both kinds: more than a vector of the images has channels.
-pub(crate) const FIVE: &str = r##"
-[[halo]]
-name = "rim"
-kind = "emissive"
-seed.by = "curvature"
-profile = [{ at = 0.1, color = "white", opacity = 0 }, { at = 0.3, color = "white" }]
-[[halo]]
-name = "shade"
-seed = { by = "curvature", thickness = "2 voxels" }
-profile = [{ at = 0, color = "black", opacity = 0 }, { at = 1, color = "black", opacity = 0.9 }]
-tints = ["rim", "glow"]
-[[halo]]
-exponents = [0.5, 3]
-profile = [{ at = 0, color = "red", opacity = 0.1 }, { at = 0.5, color = "blue", opacity = 0.8 }]
-opacity = 0.5
-spread = { passes = 2, delta = 0.95 }
-[[halo]]
-name = "glow"
-kind = "emissive"
-exponents = "printed"
-spread = { passes = 3, from = "seeds" }
-[[halo]]
-spread = { passes = 0, delta = 0.7 }
-seed.value = [[90, 0], [128, 1], [150, 0.5]]
-"##;
 
 #[test]
 fn several_halos() {

@@ -64,7 +64,9 @@ fn a_device_without_double_numbers() {
     }
     let gpu = weaker(wgpu::Features::empty(), |limits| limits);
     assert!(!gpu.has_double());
-    for (more, verdict) in [("", Verdict::Kept), ("[[halo]]\n", Verdict::NotProven)] {
+    let halos_of_objects = "[[object]]\nname = \"half\"\nvalue = [[120, 0], [134, 1]]\nmove = [3, -2, 2]\n[[halo]]\n";
+    for (more, verdict) in [("", Verdict::Kept), ("[[halo]]\n", Verdict::Kept), (halos_of_objects, Verdict::NotProven)]
+    {
         let job = job(more);
         let found = validate(&job, &gpu).unwrap_or_else(|failure| panic!("{failure}"));
         assert!(found.stages.iter().all(|stage| stage.double.is_none()) && found.parts_at.is_none());

@@ -6,10 +6,16 @@ mod cost;
 mod double;
 mod field;
 mod formulas;
+#[path = "../common/halos.rs"]
+mod halo_scenes;
 mod halos;
 mod lines;
 mod machines;
+#[path = "../common/meshes.rs"]
+mod mesh_scenes;
 mod meshes;
+#[path = "../common/objects.rs"]
+mod object_scenes;
 mod objects;
 mod points;
 #[path = "sabotage/bounds.rs"]

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::SystemTime;
 
 /// Megabytes of each library when it was last measured: x86-64 Linux, release, without debug information.
-const MEASURED: [(&str, f64); 2] = [("drypoint_reference", 14.1), ("drypoint_scene", 27.6)];
+const MEASURED: [(&str, f64); 2] = [("drypoint_reference", 16.3), ("drypoint_scene", 27.6)];
 
 /// The growth that fails.
 const GROWTH: f64 = 1.15;

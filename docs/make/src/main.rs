@@ -6,6 +6,7 @@ mod called_for;
 mod commands;
 mod contour_error;
 mod cost;
+mod faults;
 mod files;
 mod halos;
 mod integrator;
@@ -34,6 +35,7 @@ const PAGES: &[Page] = &[
     ("commands", commands::run),
     ("contour-error", contour_error::write),
     ("cost", cost::write),
+    ("faults", faults::write),
     ("figure-1", painting::figure::write),
     ("halos", halos::write),
     ("integrator", integrator::write),

@@ -475,17 +475,15 @@ fn names_a_twin(path: &Path, text: &str, root: &Path) -> bool {
 }
 
 /// Each pair of alternatives that a scene can have occurs in one of the shaders, and so does each module; those for viewers
-/// and for the maps of funnels stand alone.
+/// stand alone.
 #[test]
 fn every_pair_of_effects_has_a_valid_shader() {
     let sizes: Vec<usize> = CHOICES.iter().map(|(_, alternatives)| alternatives.len()).collect();
     let mut modules = modules();
     for precision in [Precision::Single, Precision::Double] {
-        let of_funnels = crate::volumeshop::funnel::text_of_maps(precision, [16, 12]);
-        for shader in [crate::ray::present::text(precision, 3, 5, 1), of_funnels] {
-            validate(&shader).unwrap_or_else(|error| panic!("{error}"));
-            modules.retain(|(_, module)| !shader.contains(module));
-        }
+        let shader = crate::ray::present::text(precision, 3, 5, 1);
+        validate(&shader).unwrap_or_else(|error| panic!("{error}"));
+        modules.retain(|(_, module)| !shader.contains(module));
     }
     let mut seen = BTreeSet::new();
     let [mut state, mut valid] = [1u64, 0];

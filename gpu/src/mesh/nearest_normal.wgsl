@@ -19,7 +19,8 @@ fn seen_normal(flat_normal: vec3<real>, sum: vec3<real>, v: vec3<real>) -> vec3<
     let normal = select(flat_normal, smooth_normal, any(smooth_normal != vec3<real>()));
     var seen = dot(normal, v);
     if (any(flat_normal != vec3<real>())) {
-        seen = dot(flat_normal, v) * select(real(1.0), real(-1.0), dot(flat_normal, normal) < 0.0);
+        let side = dot(flat_normal, v);
+        seen = select(side, -side, dot(flat_normal, normal) < 0.0);
     }
     return select(normal, -normal, seen < 0.0);
 }

@@ -4,7 +4,7 @@ use crate::buffers::{buffer, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::module::module;
 use crate::shader::{Constant, Data, Shader};
-use crate::{Gpu, GpuError, Precision, number, ray};
+use crate::{Gpu, GpuError, Precision, ray};
 use drypoint_scene::math;
 use drypoint_scene::shot::Shot;
 
@@ -98,16 +98,10 @@ pub(super) fn add(shader: &mut Shader, shot: &Shot, precision: Precision) {
         bands.extend([funnel.guard() as u32, first as u32]);
         first += funnel.banded().iter().product::<usize>();
     }
-    shader.add(&[module!("funnel"), module!("funnel_depths")]);
+    shader.add(&[module!("funnel"), module!("funnel_depths"), module!("funnel_maps")]);
     shader.stages.begin_part.push("begin_funnel");
     shader.block.number("funnel_slack", slack(precision));
     shader.bind(26, "the bands of funnels", Data::Words(bands));
-}
-
-/// The shader that makes maps of far depths, of this size in pixels.
-pub(crate) fn text_of_maps(precision: Precision, [width, height]: [usize; 2]) -> String {
-    let sizes = format!("const WIDTH = {width};\nconst HEIGHT = {height};");
-    format!("{}\n{sizes}\n{}", number::of(precision).text, module!("funnel_maps").text)
 }
 
 /// Passes that map the funnels of a shot, with their buffers.
@@ -168,8 +162,7 @@ impl FunnelPasses {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         })?;
-        let text_of_maps = text_of_maps(precision, map_size(shot));
-        let smooth = |entry_point| pipeline(gpu, text_of_maps.clone(), entry_point, &[&layout]);
+        let smooth = |entry_point| pipeline(gpu, text.to_owned(), entry_point, &[&layout]);
         let smooth = [smooth("dilate")?, smooth("smooth_rows")?, smooth("map_funnels")?];
         let group = gpu.attempt("the funnels", || {
             let buffers = lists.iter().chain(&maps);

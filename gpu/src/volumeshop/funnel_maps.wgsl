@@ -20,11 +20,11 @@ struct Funnel {
 @group(0) @binding(3) var<storage, read> far_depths: array<real>;
 // Coverage and covered depth: dilated, smoothed along rows, and as maps.
 @group(0) @binding(4) var<storage, read_write> dilated: array<vec2<real>>;
-@group(0) @binding(5) var<storage, read_write> smoothed: array<vec2<real>>;
+@group(0) @binding(5) var<storage, read_write> smooth_rows_of: array<vec2<real>>;
 @group(0) @binding(6) var<storage, read_write> maps: array<vec2<real>>;
 
 fn banded(funnel: Funnel) -> vec2<i32> {
-    return vec2(WIDTH, HEIGHT) + 2 * funnel.guard;
+    return vec2(FUNNEL_X, FUNNEL_Y) + 2 * funnel.guard;
 }
 
 // The largest depth within x^2 + y^2 <= (1.5 sigma)^2, whole pixels.
@@ -59,7 +59,7 @@ fn smooth_rows(@builtin(global_invocation_id) id: vec3<u32>) {
     for (var x = max(at.x - funnel.reach, 0); x <= min(at.x + funnel.reach, size.x - 1); x++) {
         sum += dilated[row + x] * funnel_taps[funnel.middle + x - at.x];
     }
-    smoothed[row + at.x] = sum;
+    smooth_rows_of[row + at.x] = sum;
 }
 
 // c~ and d^ = K*(cd)/c~ of each pixel of the picture; no coverage where there is no cut.
@@ -68,14 +68,14 @@ fn map_funnels(@builtin(global_invocation_id) id: vec3<u32>) {
     let funnel = funnels[id.z];
     let size = banded(funnel);
     let pixel = vec2<i32>(id.xy);
-    if (pixel.x >= WIDTH || pixel.y >= HEIGHT) {
+    if (pixel.x >= FUNNEL_X || pixel.y >= FUNNEL_Y) {
         return;
     }
     let at = pixel + funnel.guard;
     var sum = vec2<real>();
     for (var y = max(at.y - funnel.reach, 0); y <= min(at.y + funnel.reach, size.y - 1); y++) {
-        sum += smoothed[funnel.first + y * size.x + at.x] * funnel_taps[funnel.middle + y - at.y];
+        sum += smooth_rows_of[funnel.first + y * size.x + at.x] * funnel_taps[funnel.middle + y - at.y];
     }
-    let place = (i32(id.z) * HEIGHT + pixel.y) * WIDTH + pixel.x;
+    let place = (i32(id.z) * FUNNEL_Y + pixel.y) * FUNNEL_X + pixel.x;
     maps[place] = select(vec2<real>(), vec2<real>(sum.x, sum.y / sum.x), sum.x > 1.0e-6);
 }

@@ -225,7 +225,7 @@ fn meetings(
         paints.push((i, under_dabs(shader, color, intersection, scales, &mut tables)));
     }
     if !tables.is_empty() {
-        shader.add(&[BILINEAR, module!("intersection_picture")]);
+        shader.add(&[BILINEAR, module!("intersections_picture")]);
         shader.bind(25, "the pictures and dabs of intersections", Data::Reals(tables));
     }
     if !calls.is_empty() {

@@ -12,31 +12,29 @@ struct ObjectSet {
 // The sets at a sample: those of objects, and those of intersections.
 var<private> sets: array<ObjectSet, SETS>;
 
-// Sum c mu / sum mu, and the membership of the union. Sets that share come first: the twin sums colours in the order of sets,
-// which differs in rounding alone. A place without members is transparent.
+// Sum c mu / sum mu, and the membership of the union. A place without members is transparent.
 fn combined() -> Shaded {
     var sum = vec3<real>();
     var weight = real(0.0);
     var shared_mu = real(0.0);
     for (var i = 0; i < SETS; i++) {
         let each = sets[i];
-        if (each.shares && each.mu > 0.0) {
+        if (each.mu > 0.0) {
             sum += each.rgb * each.mu;
             weight += each.mu;
-            shared_mu = select(max(shared_mu, each.mu), shared_mu + each.mu, PRODUCT);
-        }
-    }
-    var opacity = min(shared_mu, 1.0);
-    for (var i = 0; i < SETS; i++) {
-        let each = sets[i];
-        if (!each.shares && each.mu > 0.0) {
-            sum += each.rgb * each.mu;
-            weight += each.mu;
-            opacity = either(opacity, each.mu);
+            if (each.shares) {
+                shared_mu = select(max(shared_mu, each.mu), shared_mu + each.mu, PRODUCT);
+            }
         }
     }
     if (!(weight > 0.0)) {
         return Shaded();
+    }
+    var opacity = min(shared_mu, 1.0);
+    for (var i = 0; i < SETS; i++) {
+        if (!sets[i].shares && sets[i].mu > 0.0) {
+            opacity = either(opacity, sets[i].mu);
+        }
     }
     return Shaded(sum / weight, opacity);
 }

@@ -4,10 +4,12 @@
 //! two triangles share are computed from the same products, so no line passes between them.
 
 mod nearest;
+mod possible;
 mod tree;
 mod triangle;
 
 pub(crate) use nearest::{MeshHit, MeshSearch};
+pub(crate) use possible::{LineErrors, PossibleHit};
 
 #[cfg(test)]
 mod tests;

@@ -13,8 +13,8 @@ pub(crate) struct MeshSearch<'a> {
     /// The number of triangles of all meshes before each mesh.
     first: Vec<usize>,
     /// Corners of the triangles of all meshes, in the index space of lines.
-    corners: Vec<[DVec3; 3]>,
-    tree: BoxTree,
+    pub(super) corners: Vec<[DVec3; 3]>,
+    pub(super) tree: BoxTree,
 }
 
 /// A place at which a line meets a mesh.
@@ -25,9 +25,9 @@ pub(crate) struct MeshHit {
     /// The mesh, by its index in the list.
     pub(crate) mesh: usize,
     /// The triangle of the mesh.
-    triangle: usize,
+    pub(super) triangle: usize,
     /// Barycentric weights of its corners, with the sum 1.
-    weights: [f64; 3],
+    pub(super) weights: [f64; 3],
 }
 
 impl<'a> MeshSearch<'a> {
@@ -42,12 +42,6 @@ impl<'a> MeshSearch<'a> {
         let bounds = |[a, b, c]: &[DVec3; 3]| [a.min(*b).min(*c), a.max(*b).max(*c)];
         let boxes: Vec<[DVec3; 2]> = corners.iter().map(bounds).collect();
         (!boxes.is_empty()).then(|| Self { meshes, first, corners, tree: BoxTree::new(&boxes) })
-    }
-
-    /// The corners of all triangles.
-    #[cfg(test)]
-    pub(super) fn corners(&self) -> &[[DVec3; 3]] {
-        &self.corners
     }
 
     /// The index of a hit triangle among those of all meshes.
@@ -83,27 +77,44 @@ impl<'a> MeshSearch<'a> {
             }
             until
         });
-        let (Crossing { t, weights }, triangle) = best?;
+        best.map(|(crossing, triangle)| self.hit(crossing, triangle))
+    }
+
+    /// A place in a triangle, given by its index among those of all meshes.
+    pub(super) fn hit(&self, Crossing { t, weights }: Crossing, triangle: u32) -> MeshHit {
         let mesh = self.first.partition_point(|&first| first <= triangle as usize) - 1;
-        Some(MeshHit { t, mesh, triangle: triangle as usize - self.first[mesh], weights })
+        MeshHit { t, mesh, triangle: triangle as usize - self.first[mesh], weights }
     }
 
     /// The unit normal at a place, in world space. It is interpolated from the vertices' normals, or else the
     /// triangle's own, and lies on the side of v, which points to the eye. Returns none if the normal has no direction.
     pub(crate) fn normal(&self, hit: &MeshHit, v: DVec3) -> Option<DVec3> {
-        let mesh = &self.meshes[hit.mesh];
-        let corners = mesh.triangles()[hit.triangle].map(|i| i as usize);
-        let [a, b, c] = corners.map(|i| mesh.positions()[i]);
-        let flat = unit((b - a).cross(c - a));
-        let smooth = mesh.normals().and_then(|normals| {
-            let [a, b, c] = corners.map(|i| unit(normals[i]).unwrap_or(DVec3::ZERO));
-            unit(a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2])
-        });
+        let (flat, of_corners) = self.normals(hit);
+        let smooth =
+            of_corners.and_then(|[a, b, c]| unit(a * hit.weights[0] + b * hit.weights[1] + c * hit.weights[2]));
         let normal = smooth.or(flat)?;
         // The triangle decides which side is seen. A smooth normal can point away from the eye although the triangle
         // does not.
         let seen = flat.map_or(normal.dot(v), |flat| flat.dot(v) * if flat.dot(normal) < 0.0 { -1.0 } else { 1.0 });
         Some(if seen < 0.0 { -normal } else { normal })
+    }
+}
+
+impl MeshSearch<'_> {
+    /// The unit normal of a hit triangle, and the unit normals of its vertices, 0 for one without direction.
+    pub(super) fn normals(&self, hit: &MeshHit) -> (Option<DVec3>, Option<[DVec3; 3]>) {
+        let mesh = &self.meshes[hit.mesh];
+        let corners = mesh.triangles()[hit.triangle].map(|i| i as usize);
+        let [a, b, c] = corners.map(|i| mesh.positions()[i]);
+        let of_corners = mesh.normals().map(|normals| corners.map(|i| unit(normals[i]).unwrap_or(DVec3::ZERO)));
+        (unit((b - a).cross(c - a)), of_corners)
+    }
+}
+
+impl MeshHit {
+    /// Whether both places lie in one triangle.
+    pub(crate) fn is_in_triangle_of(&self, other: &Self) -> bool {
+        (self.mesh, self.triangle) == (other.mesh, other.triangle)
     }
 }
 

@@ -169,8 +169,7 @@ fn the_tree_finds_what_testing_every_triangle_finds() {
         let line = [vector(i, 30) * 60.0, along];
         let range = if i % 5 == 0 { [-10.0, 40.0] } else { [0.0, f64::INFINITY] };
         let sheared = ShearedLine::new(line).unwrap();
-        let all =
-            search.corners().iter().enumerate().filter_map(|(i, &corners)| Some((sheared.crosses(corners)?.t, i)));
+        let all = search.corners.iter().enumerate().filter_map(|(i, &corners)| Some((sheared.crosses(corners)?.t, i)));
         let first = all.filter(|(t, _)| (range[0]..=range[1]).contains(t)).min_by(|a, b| a.partial_cmp(b).unwrap());
         let found = search.nearest(line, range).map(|hit| (hit.t, search.place(&hit)));
         assert_eq!(found, first, "{i}");
@@ -200,7 +199,7 @@ fn triangles_with_equal_boxes_are_a_balanced_tree() {
     for i in 0..50 {
         let line = [vector(i, 20) * 4.0, (vector(i, 30) + DVec3::ONE) * 0.5 - vector(i, 20) * 4.0];
         let sheared = ShearedLine::new(line).unwrap();
-        let all = search.corners().iter().enumerate();
+        let all = search.corners.iter().enumerate();
         let all = all.filter_map(|(i, &corners)| Some((sheared.crosses(corners)?.t, i)));
         let first = all.min_by(|a, b| a.partial_cmp(b).unwrap());
         assert_eq!(search.nearest(line, ALL).map(|hit| (hit.t, search.place(&hit))), first, "{i}");

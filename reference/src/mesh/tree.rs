@@ -18,12 +18,19 @@ pub(super) struct BoxTree {
 pub(super) struct Slabs {
     origin: DVec3,
     inverse: DVec3,
+    /// The distance along each axis at which a box counts as met.
+    reach: f64,
 }
 
 impl Slabs {
     /// Prepares the line origin + t·along.
-    pub(super) fn new([origin, along]: [DVec3; 2]) -> Self {
-        Self { origin, inverse: along.recip() }
+    pub(super) fn new(line: [DVec3; 2]) -> Self {
+        Self::within(line, 0.0)
+    }
+
+    /// Prepares the line origin + t·along. A box counts as met if the line passes it within `reach` along each axis.
+    pub(super) fn within([origin, along]: [DVec3; 2], reach: f64) -> Self {
+        Self { origin, inverse: along.recip(), reach }
     }
 
     /// The parameter at which the line enters a box. Returns none if the line misses the box. The parameter is slightly
@@ -34,7 +41,7 @@ impl Slabs {
         let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
         for axis in 0..3 {
             let (o, inverse) = (self.origin[axis], self.inverse[axis]);
-            let margin = SLACK * (o.abs() + node.lo[axis].abs().max(node.hi[axis].abs()));
+            let margin = self.reach + SLACK * (o.abs() + node.lo[axis].abs().max(node.hi[axis].abs()));
             let [lo, hi] = [node.lo[axis] - margin - o, node.hi[axis] + margin - o];
             if inverse.is_infinite() {
                 if lo > 0.0 || hi < 0.0 {

@@ -12,7 +12,7 @@ pub(super) struct ShearedLine {
     /// Indices of the axes that become x, y and z.
     axes: [usize; 3],
     /// along.x/along.z, along.y/along.z and 1/along.z.
-    shear: [f64; 3],
+    pub(super) shear: [f64; 3],
 }
 
 /// A place in a triangle.
@@ -36,7 +36,7 @@ impl ShearedLine {
     }
 
     /// The first two coordinates of a point in these axes, and its coordinate along the third.
-    fn of(&self, point: DVec3) -> [f64; 3] {
+    pub(super) fn of(&self, point: DVec3) -> [f64; 3] {
         let ([x, y, z], p) = (self.axes, point - self.origin);
         [p[x] - self.shear[0] * p[z], p[y] - self.shear[1] * p[z], p[z]]
     }

@@ -26,6 +26,7 @@ mod operators;
 mod row;
 
 use super::{Arithmetic, Decision, Elementary, Real, Vec3, ways};
+use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::volume::Voxel;
 use fearless_simd::Simd;
 use row::BoundedRow;
@@ -82,6 +83,12 @@ impl Bounded {
     /// The ends of the interval in which an f32 renderer's number lies.
     pub fn ends(self) -> [f64; 2] {
         [self.value - self.error, self.value + self.error]
+    }
+
+    /// The number with a bound that also covers `other`, another outcome of an open decision.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        let away = (self.value - other.value).abs() + other.error;
+        Self::new(self.value, if away.is_nan() { away } else { self.error.max(away) })
     }
 
     /// The result of an operation: propagated errors, and the operation's grant.
@@ -349,8 +356,23 @@ impl Real for Bounded {
         here
     }
 
+    /// Σ|L|e, and roundings of the factors, the products, the sums and the offset: six of the sum of all magnitudes.
+    fn mapped(position: Vec3<Self>, (linear, offset): (DMat3, DVec3)) -> Vec3<Self> {
+        let p = position.to_glam();
+        let errors = DVec3::new(position.x.error, position.y.error, position.z.error);
+        let sizes = DMat3::from_cols(linear.x_axis.abs(), linear.y_axis.abs(), linear.z_axis.abs());
+        let error = sizes * errors + 6.0 * ROUNDED * (sizes * (p.abs() + errors) + offset.abs());
+        let q = linear * p + offset;
+        Vec3::new(Self::new(q.x, error.x), Self::new(q.y, error.y), Self::new(q.z, error.z))
+    }
+
     fn known_within(self, range: [f32; 2]) -> Self {
-        let [lo, hi] = range.map(f64::from);
+        self.known_between(Self::exact(range[0].into()), Self::exact(range[1].into()))
+    }
+
+    fn known_between(self, a: Self, b: Self) -> Self {
+        let [a, b] = [a.ends(), b.ends()];
+        let [lo, hi] = [a[0].min(b[0]), a[1].max(b[1])];
         // Interpolations between numbers in the range are rounded.
         let rounded = 8.0 * ULP * lo.abs().max(hi.abs());
         let farthest = (hi - self.value).max(self.value - lo) + rounded;

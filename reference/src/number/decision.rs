@@ -9,6 +9,8 @@ pub enum Decision {
     Step,
     /// Whether a visible sample lies inside the volume's box.
     Inside,
+    /// Whether a visible sample lies in the box of an object, or before the end of a cutaway.
+    Object,
     /// Whether a clip plane cuts a visible sample away, or which sample is the first one behind a cut.
     Cut,
     /// Whether ‖g‖ exceeds the bound below which a sample has no normal.
@@ -27,15 +29,18 @@ pub enum Decision {
     End,
     /// The depth of the iso-surface, where the ray touches it or passes it by.
     Surface,
+    /// Whether a pixel gets rays at an edge.
+    Edge,
     /// More comparisons were open at one sample than can be followed.
     Many,
 }
 
 impl Decision {
     /// All decisions.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::Step,
         Self::Inside,
+        Self::Object,
         Self::Cut,
         Self::Normal,
         Self::Facing,
@@ -45,6 +50,7 @@ impl Decision {
         Self::Label,
         Self::End,
         Self::Surface,
+        Self::Edge,
         Self::Many,
     ];
 
@@ -53,6 +59,7 @@ impl Decision {
         match self {
             Self::Step => "a step of the function, or a cell, a node or a texel across which a formula jumps",
             Self::Inside => "whether a visible sample lies inside the volume",
+            Self::Object => "whether a visible sample lies in the box of an object or before the end of a cutaway",
             Self::Cut => "whether a clip plane cuts a visible sample away",
             Self::Normal => "whether the gradient is long enough for a normal",
             Self::Facing => "the side of a normal that is turned to the eye",
@@ -62,6 +69,7 @@ impl Decision {
             Self::Label => "the label of a sample",
             Self::End => "whether a ray ends before it is opaque",
             Self::Surface => "the depth of the iso-surface, where the ray touches it or passes it by",
+            Self::Edge => "whether a pixel gets more rays, because it differs from a neighbour",
             Self::Many => "more comparisons than are followed, at one sample",
         }
     }

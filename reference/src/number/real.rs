@@ -1,6 +1,7 @@
 //! The operations that the sample code needs of a number.
 
 use super::{Elementary, Vec3};
+use drypoint_scene::glam::{DMat3, DVec3};
 use drypoint_scene::math;
 use drypoint_scene::volume::Voxel;
 use fearless_simd::prelude::*;
@@ -95,9 +96,21 @@ pub trait Real:
         assign(Vec3::new(position.x.to_f64(), position.y.to_f64(), position.z.to_f64()))
     }
 
+    /// L·p + t of a position p, computed in f64 and rounded once.
+    #[inline(always)]
+    fn mapped(position: Vec3<Self>, (linear, offset): (DMat3, DVec3)) -> Vec3<Self> {
+        Vec3::from_glam(linear * position.to_glam() + offset)
+    }
+
     /// The number itself, which is known to lie in a range up to rounding. Its error interval is cut to the range.
     #[inline(always)]
     fn known_within(self, _: [f32; 2]) -> Self {
+        self
+    }
+
+    /// The number itself, which is known to lie between two numbers up to rounding. Its error interval is cut to theirs.
+    #[inline(always)]
+    fn known_between(self, _: Self, _: Self) -> Self {
         self
     }
 

@@ -109,7 +109,7 @@ pub(super) fn order(a: &Bounded, b: &Bounded) -> Option<Ordering> {
 }
 
 /// The outcome of an open comparison of another kind.
-pub(super) fn choose(by_value: bool, [a, b]: [Bounded; 2], decision: Decision) -> bool {
+pub(crate) fn choose(by_value: bool, [a, b]: [Bounded; 2], decision: Decision) -> bool {
     let order = |outcome| if outcome { Ordering::Greater } else { Ordering::Less };
     RUN.with_borrow_mut(|run| match run {
         Some(run) => {

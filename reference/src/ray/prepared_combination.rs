@@ -57,7 +57,7 @@ pub(super) enum PreparedMembership<'v, R> {
     /// A function of the data's value.
     Value(Piecewise<R>),
     /// A selection volume.
-    Voxels(Memberships<'v>),
+    Voxels(Memberships<'v, R>),
 }
 
 /// A selection or a ghost ready for samples.
@@ -201,6 +201,16 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
             selection.members.map_or(0.0, |ends| samples_in_box(lattice, view, grid, ends))
         };
         apart.map(of).sum()
+    }
+
+    /// Whether a cutaway is smooth.
+    pub(super) fn has_funnel(&self) -> bool {
+        self.cutaways.iter().any(|cutaway| cutaway.funnel.is_some())
+    }
+
+    /// Evaluates samples also in bricks that show and seed nothing.
+    pub(super) fn skip_nothing(&mut self) {
+        self.parts.iter_mut().for_each(|part| part.bricks = None);
     }
 
     /// Takes over the camera's data from another shot, with lengths that follow from the picture's size.

@@ -2,9 +2,10 @@
 
 use super::lattice::IndexRay;
 use super::sample::Lit;
-use crate::mesh::{MeshHit, MeshSearch};
-use crate::number::{Real, Vec3};
+use crate::mesh::{LineErrors, MeshHit, MeshSearch, PossibleHit};
+use crate::number::{Bounded, Real, Vec3};
 use drypoint_scene::counts::Counts;
+use drypoint_scene::glam::DVec3;
 use drypoint_scene::mesh::TriangleMesh;
 use drypoint_scene::shot::{MOST_PLANES, MeshParams};
 use drypoint_scene::space::Grid;
@@ -45,9 +46,12 @@ impl<'a, R: Real> PreparedMeshes<'a, R> {
 
     /// The nearest place on a ray from a depth on.
     pub(super) fn nearest(&self, ray: &IndexRay<R>, near: f64) -> Option<MeshHit> {
-        // Beyond this depth sample planes coincide.
-        let far = MOST_PLANES * ray.depth_step.to_f64();
-        self.search.nearest(ray.line(), [near.max(-far), far])
+        self.search.nearest(ray.line(), searched(ray, near))
+    }
+
+    /// The box about all triangles, in the index space of the volume.
+    pub(super) fn ends(&self) -> [DVec3; 2] {
+        self.search.ends()
     }
 
     /// The normal at a place, on the side of v, and the lit colour there.
@@ -56,4 +60,26 @@ impl<'a, R: Real> PreparedMeshes<'a, R> {
         let look = &self.looks[hit.mesh];
         (normal, look.lit.color(look.rgb, normal, [v, look.lit.half_vector(v)]))
     }
+}
+
+impl PreparedMeshes<'_, Bounded> {
+    /// The places on a ray, from a depth on, at which an f32 renderer may meet a mesh first.
+    #[inline]
+    pub(super) fn possible(&self, ray: &IndexRay<Bounded>, errors: LineErrors, near: f64) -> Vec<PossibleHit> {
+        self.search.possible(ray.line(), errors, searched(ray, near))
+    }
+
+    /// The lit colour at a possible hit, seen from v.
+    #[inline]
+    pub(super) fn possible_color(&self, possible: &PossibleHit, v: Vec3<Bounded>) -> [Bounded; 3] {
+        let look = &self.looks[possible.hit.mesh];
+        let normal = self.search.possible_normal(possible, v);
+        look.lit.color(look.rgb, normal, [v, look.lit.half_vector(v)])
+    }
+}
+
+/// The depths at which meshes are searched on a ray, from `near` on. Beyond them sample planes coincide.
+fn searched<R: Real>(ray: &IndexRay<R>, near: f64) -> [f64; 2] {
+    let far = MOST_PLANES * ray.depth_step.to_f64();
+    [near.max(-far), far]
 }

@@ -18,7 +18,7 @@ use drypoint_scene::picture::{LayerKind, Picture};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Rays across a refined pixel.
-const ACROSS: usize = 3;
+pub(super) const ACROSS: usize = 3;
 
 /// Index of the part of a refined pixel whose centre is the pixel's.
 const MIDDLE: usize = ACROSS * ACROSS / 2;

@@ -10,7 +10,7 @@ use drypoint_scene::math;
 use drypoint_scene::volume::{Bricks, Mask};
 
 /// Distance of evaluations along a line, in voxels, for kernels that are not cubic there.
-const STEP: f64 = 0.25;
+pub(crate) const STEP: f64 = 0.25;
 
 /// A finder of roots of f = iso along lines. It holds data about a field and a value, but not the field.
 #[derive(Clone, Debug)]
@@ -103,6 +103,16 @@ impl RootFinder {
                 return None;
             }
         }
+    }
+
+    /// The cells on a line in a closed range, each with its part of the range.
+    pub(crate) fn cells(&self, line: IndexLine, range: [f64; 2]) -> impl Iterator<Item = ([usize; 3], [f64; 2])> {
+        let mut walk = CellTraversal::new(&self.bounds, line, range);
+        std::iter::from_fn(move || {
+            let met = walk.as_ref().map(|walk| (walk.cell(), walk.range()));
+            walk = walk.take().and_then(|mut walk| walk.pass(1).then_some(walk));
+            met
+        })
     }
 
     fn in_cell<R: Real>(

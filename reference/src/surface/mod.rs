@@ -21,7 +21,7 @@ mod visibility;
 
 pub(crate) use clipped::{Clipped, SurfaceHit};
 pub(crate) use cubic::bracketed;
-pub(crate) use first_root::RootFinder;
+pub(crate) use first_root::{RootFinder, STEP};
 
 use crate::field::{Field, Rung, Sampler};
 use drypoint_scene::clip::{ClipPlanes, NO_PLANES};

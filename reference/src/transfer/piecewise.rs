@@ -197,7 +197,10 @@ impl<R: Real> Piecewise<R> {
     pub fn locate(&self, s: R) -> Option<NodePlace<R>> {
         // Values before the first node and NaN become 0.
         let part = (s - self.first) * self.parts_per_unit + R::ONE;
-        let Some(part) = part.proposed_index() else { return self.search(s, 0) };
+        let Some(part) = part.proposed_index() else {
+            let after = self.segments.partition_point(|segment| s >= segment.at);
+            return self.search(s, after.saturating_sub(1));
+        };
         match self.parts[part.min(PARTS + 1)] {
             LookupPart::Invisible => None,
             LookupPart::Segment(k) => self.between(s, k as usize),

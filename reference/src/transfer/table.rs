@@ -24,8 +24,9 @@ impl<R: Real> IndexTable<R> {
     #[inline]
     pub fn between_nodes(&self, entry: &NodePlace<R>) -> NodePlace<R> {
         let i = self.index[entry.node];
-        let i = if entry.w == R::ZERO { i } else { R::lerp(i, self.index[entry.node + 1], entry.w).min(self.last) };
-        let (node, w) = i.split();
+        let i = if entry.w == R::ZERO { i } else { R::lerp(i, self.index[entry.node + 1], entry.w) };
+        // Rounding can lead beyond the last node, behind which there is none.
+        let (node, w) = if i >= self.last { (self.last.to_index(), R::ZERO) } else { i.split() };
         NodePlace { node, w, alpha_u: entry.alpha_u }
     }
 

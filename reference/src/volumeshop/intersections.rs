@@ -1,6 +1,8 @@
 //! Intersection transfer functions (eqs. 6 and 7; [VS-4]): the colour and opacity of places where two objects meet.
 
+use crate::bilinear::{cell, mix};
 use crate::number::Real;
+use drypoint_scene::intersection_picture::IntersectionPicture;
 use drypoint_scene::math;
 use drypoint_scene::shot::{Dab, IntersectionOpacity};
 
@@ -26,19 +28,30 @@ pub fn opacity<R: Real>(preset: IntersectionOpacity, a: R, b: R) -> R {
 /// The mean of two colours by their opacities: (α₁c₁ + α₂c₂)/(α₁ + α₂). Returns none if both are transparent.
 pub fn mean<R: Real>((c_1, alpha_1): Unshaded<R>, (c_2, alpha_2): Unshaded<R>) -> Option<[R; 3]> {
     let sum = alpha_1 + alpha_2;
-    (sum > R::ZERO).then(|| std::array::from_fn(|i| (c_1[i] * alpha_1 + c_2[i] * alpha_2) / sum))
+    let mean = |i: usize| ((c_1[i] * alpha_1 + c_2[i] * alpha_2) / sum).known_between(c_1[i], c_2[i]);
+    (sum > R::ZERO).then(|| std::array::from_fn(mean))
+}
+
+/// Colour and opacity of a picture at shares of both ranges, clamped to [0, 1]: bilinear between the centres of pixels.
+/// The ends of a range lie at the centres of the first and the last pixel.
+pub fn pictured<R: Real>(picture: &IntersectionPicture, [x, y]: [R; 2]) -> [R; 4] {
+    let [width, height] = picture.size;
+    let place = |share: R, n: usize| cell(share.clamp_01() * R::from_index(n - 1), n);
+    let ((i, u), (j, v)) = (place(x, width), place(R::ONE - y, height));
+    let pixel = |i: usize, j: usize| picture.pixels[j.min(height - 1) * width + i.min(width - 1)].map(R::from_f64);
+    mix(mix(pixel(i, j), pixel(i + 1, j), u), mix(pixel(i, j + 1), pixel(i + 1, j + 1), u), v)
 }
 
 /// The result of a function under a dab, at the value at p and the value at T p. It is *over* of Porter and Duff (1984):
 /// α' = w + α(1 − w), c' = (w·c_dab + α(1 − w)·c)/α'. Here a and c_dab are the dab's, and the weight is
 /// w = a·exp(−½(((v₀ − at₀)/width₀)² + ((v₁ − at₁)/width₁)²)). If α' is 0, nothing changes.
-pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [f64; 2]) -> Unshaded<R> {
-    let [u, v] = std::array::from_fn(|i| (values[i] - dab.at[i]) / dab.width[i]);
+pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [R; 2]) -> Unshaded<R> {
+    let [u, v] = std::array::from_fn(|i| (values[i] - R::from_f64(dab.at[i])) / R::from_f64(dab.width[i]));
     let [r, g, b, a] = dab.color;
-    let w = R::from_f64(a * math::exp(-0.5 * (u * u + v * v)));
+    let w = R::monotone([u * u + v * v], |[square]| a * math::exp(-0.5 * square));
     let painted = w + alpha * (R::ONE - w);
     // The share w/α' of the dab in the colour; α(1 − w)/α' is the rest of it. Both ends are exact.
-    let share = if painted > R::ZERO { w / painted } else { R::ZERO };
+    let share = if painted > R::ZERO { (w / painted).known_between(R::ZERO, R::ONE) } else { R::ZERO };
     let of_dab = [r, g, b].map(R::from_f64);
     (std::array::from_fn(|i| c[i] * (R::ONE - share) + of_dab[i] * share), painted)
 }
@@ -47,7 +60,6 @@ pub fn painted<R: Real>((c, alpha): Unshaded<R>, dab: &Dab, values: [f64; 2]) ->
 mod tests {
     use super::*;
     use IntersectionOpacity::{Atop, In, Max, Out, Over, Plus, Xor};
-    use drypoint_scene::intersection_picture::IntersectionPicture;
     use proptest::prelude::*;
 
     const ALL: [IntersectionOpacity; 7] = [Max, Over, In, Out, Atop, Xor, Plus];
@@ -113,6 +125,18 @@ mod tests {
         near(both([blue, red]), ([0.8, 0.0, 0.2], 0.625));
     }
 
+    /// Two by three pixels, by hand.
+    #[test]
+    fn ends_lie_at_the_centres_of_pixels() {
+        let pixels = (0..6).map(|i| [f64::from(i), 0.0, 1.0, 0.5]).collect();
+        let picture = IntersectionPicture { size: [2, 3], pixels, has_opacity: true };
+        let red = |x, y| pictured(&picture, [x, y])[0];
+        assert_eq!([red(0.0, 1.0), red(1.0, 1.0), red(0.0, 0.0), red(1.0, 0.0)], [0.0, 1.0, 4.0, 5.0]);
+        assert_eq!([red(0.5, 0.5), red(0.25, 0.75), red(-3.0, 7.0), red(9.0, -9.0)], [2.5, 1.25, 0.0, 5.0]);
+        let one = IntersectionPicture { size: [1, 1], pixels: vec![[0.5; 4]], has_opacity: false };
+        assert_eq!(pictured(&one, [0.3, 0.9]), [0.5; 4]);
+    }
+
     /// A picture with the same dabs on it is the same function, but for bilinear interpolation: half the distance between
     /// pixels is a quarter of the error.
     #[test]
@@ -131,7 +155,7 @@ mod tests {
             let at = (0..97 * 97).map(|i| [(i % 97) as f64 / 96.0, (i / 97) as f64 / 96.0]);
             let off = at.flat_map(|[x, y]| {
                 let ([r, g, b], a) = function([value(x), value(y)]);
-                let found = picture.at([x, y]);
+                let found = pictured(&picture, [x, y]);
                 [r - found[0], g - found[1], b - found[2], a - found[3]]
             });
             off.fold(0.0, |largest: f64, off| largest.max(off.abs()))

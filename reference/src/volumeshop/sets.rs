@@ -46,7 +46,13 @@ pub fn combined<R: Real>(fuzzy: Fuzzy, sets: impl Iterator<Item = ObjectSet<R>> 
         Fuzzy::Product => shared().fold(R::ZERO, |sum, mu| sum + mu).min(R::ONE),
     };
     let opacity = members.clone().filter(|set| !set.shares).fold(first, |a, set| fuzzy::union(fuzzy, a, set.mu));
-    (sum.map(|c| c / weight), opacity)
+    // A mean lies between its least and its largest number.
+    let color = |i: usize| {
+        let ends = members.clone().map(|set| [set.rgb[i]; 2]).reduce(|[a, b], [c, _]| [a.min(c), b.max(c)]);
+        let mean = sum[i] / weight;
+        ends.map_or(mean, |[least, most]| mean.known_between(least, most))
+    };
+    (std::array::from_fn(color), opacity)
 }
 
 /// The fraction w_N of each object in the combined sets. Their sum is 1. `sets` are those of the objects, then the

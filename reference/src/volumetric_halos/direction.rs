@@ -20,15 +20,35 @@ impl DirectionInfluence {
     ///
     /// θ = atan2(N_x, N_y) in degrees, and d is the distance of θ to `toward` on the circle. h_d is 1 for d ≤ width/2
     /// and falls by 1 − smoothstep to 0 at width/2 + softness. A normal along v has h_d = 0.
-    pub fn at(&self, [x, y]: [f64; 2]) -> f64 {
-        if math::hypot(x, y) <= ALONG_VIEW {
-            return 0.0;
+    pub fn at(&self, normal: [f64; 2]) -> f64 {
+        if math::hypot(normal[0], normal[1]) <= ALONG_VIEW { 0.0 } else { self.within(self.degrees_apart(normal)) }
+    }
+
+    /// The least and the largest h_d of a normal that is displaced by up to `turned`. The angle changes by the angle of
+    /// the displacement at most, and by the roundings of an arc tangent.
+    pub(crate) fn range(&self, normal: [f64; 2], turned: f64) -> [f64; 2] {
+        /// Roundings of the angle in f32, in degrees.
+        const ROUNDED: f64 = 32.0 * 180.0 * f32::EPSILON as f64;
+        let length = math::hypot(normal[0], normal[1]);
+        if length - turned <= ALONG_VIEW {
+            return [0.0, 1.0];
         }
-        let SeedDirection { toward, width, softness } = self.0;
+        let more = (turned / length).min(1.0).asin().to_degrees() + ROUNDED;
+        let d = self.degrees_apart(normal);
+        [self.within(d + more), self.within(d - more)]
+    }
+
+    /// d in degrees.
+    fn degrees_apart(&self, [x, y]: [f64; 2]) -> f64 {
         let theta = math::atan2(x, y).to_degrees();
         // The remainder is exact, so a whole turn of `toward` changes d by the rounding of the difference alone.
-        let apart = (theta - toward).rem_euclid(360.0);
-        let d = apart.min(360.0 - apart);
+        let apart = (theta - self.0.toward).rem_euclid(360.0);
+        apart.min(360.0 - apart)
+    }
+
+    /// h_d at a distance of d degrees.
+    fn within(&self, d: f64) -> f64 {
+        let SeedDirection { width, softness, .. } = self.0;
         let beyond = d - 0.5 * width;
         if beyond <= 0.0 {
             1.0

@@ -18,6 +18,12 @@ impl FocusInfluence {
         self.of_distance(self.distance(p))
     }
 
+    /// The least and the largest h_p of a place that is displaced by up to a distance, which changes its own by as much.
+    pub(crate) fn range(&self, p: DVec3, displaced: f64) -> [f64; 2] {
+        let distance = self.distance(p);
+        [self.of_distance(distance + displaced), self.of_distance(distance - displaced)]
+    }
+
     /// Whether h_p can be above 0 within a distance of a place.
     pub fn can_reach(&self, p: DVec3, radius: f64) -> bool {
         let nearest = self.distance(p) - radius;

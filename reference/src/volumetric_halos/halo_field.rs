@@ -32,7 +32,8 @@ impl SpreadParams {
         halo::tap_distance(self.stretch, self.passes - i)
     }
 
-    fn q(&self) -> f64 {
+    /// Returns the distance q of the taps of the gradient.
+    pub(super) fn tap(&self) -> f64 {
         halo::tap_distance(self.stretch, 0)
     }
 
@@ -175,7 +176,7 @@ impl HaloField {
         }
         // H₀.
         if spread.from_gradient {
-            gradient_magnitude(&self.seeds, Taps::new(spread.q(), side), border, zeros, &mut self.source);
+            gradient_magnitude(&self.seeds, Taps::new(spread.tap(), side), border, zeros, &mut self.source);
             self.passes_done += 1;
         } else {
             swap(&mut self.seeds, &mut self.source);

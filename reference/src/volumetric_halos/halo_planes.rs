@@ -8,13 +8,13 @@ use drypoint_scene::shot::{HaloAccumulation, HaloKind, HaloParams, HaloSource};
 /// A halo prepared for any picture.
 #[derive(Clone, Debug)]
 pub(crate) struct PreparedHalo {
-    profile: HaloProfile,
-    spread: SpreadParams,
-    kind: HaloKind,
+    pub(crate) profile: HaloProfile,
+    pub(crate) spread: SpreadParams,
+    pub(crate) kind: HaloKind,
     /// M.
-    every: i64,
-    accumulate: HaloAccumulation,
-    tints: Vec<usize>,
+    pub(crate) every: i64,
+    pub(crate) accumulate: HaloAccumulation,
+    pub(crate) tints: Vec<usize>,
     /// Whether a layer shows its intensities.
     pub(crate) is_watched: bool,
 }

@@ -20,6 +20,11 @@ impl HaloProfile {
         Self { nodes: nodes.to_vec(), opacity, encode }
     }
 
+    /// The intensities of the nodes.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = f64> {
+        self.nodes.iter().map(|node| node.at)
+    }
+
     /// The straight colour in the blend space, and the opacity. Returns none if the halo is invisible. An intensity of
     /// 0 is transparent whatever the nodes.
     #[inline]

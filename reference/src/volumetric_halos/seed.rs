@@ -28,8 +28,8 @@ enum ValueInfluence {
     One,
     /// α_u of the transfer function.
     Opacity,
-    /// A function given by nodes; none stands for 0.
-    Nodes(Box<Piecewise<f64>>),
+    /// A function given by nodes; none stands for 0. The values of its nodes stand beside it.
+    Nodes(Box<Piecewise<f64>>, Vec<f64>),
 }
 
 /// A sample before its gradient is known.
@@ -70,7 +70,7 @@ impl Seeding {
             Some(SeedValue::Opacity) => ValueInfluence::Opacity,
             Some(SeedValue::Nodes(nodes)) => {
                 let (at, h): (Vec<f64>, Vec<f64>) = nodes.iter().map(|&[at, h]| (at, h)).unzip();
-                ValueInfluence::Nodes(Box::new(Piecewise::new(&at, &h)?))
+                ValueInfluence::Nodes(Box::new(Piecewise::new(&at, &h)?), at)
             }
         };
         let most_frontal = match seed.side {
@@ -108,11 +108,7 @@ impl Seeding {
     /// h_v·h_l·h_p, which need no gradient. It is 0 if s is below the floor whatever the gradient is.
     #[inline]
     pub fn before_gradient(&self, at: &SeedPlace) -> f64 {
-        let h_v = match &self.value {
-            ValueInfluence::One => 1.0,
-            ValueInfluence::Opacity => at.alpha_u,
-            ValueInfluence::Nodes(nodes) => nodes.locate(at.value).map_or(0.0, |place| place.alpha_u),
-        };
+        let h_v = self.by_value(at.value, at.alpha_u);
         if h_v <= 0.0 || self.labels.as_ref().is_some_and(|labels| !labels.contains(&at.label)) {
             return 0.0;
         }
@@ -121,22 +117,97 @@ impl Seeding {
         if h < self.floor { 0.0 } else { h }
     }
 
+    /// h_v.
+    #[inline]
+    fn by_value(&self, value: f64, alpha_u: f64) -> f64 {
+        match &self.value {
+            ValueInfluence::One => 1.0,
+            ValueInfluence::Opacity => alpha_u,
+            ValueInfluence::Nodes(nodes, _) => nodes.locate(value).map_or(0.0, |place| place.alpha_u),
+        }
+    }
+
     /// s = clamp₀₁(h·|g|^a·(1 − |n·v|)^b), or with clamp₀₁(1 − |n·v|/τ) in place of the power. It is 0 below the floor.
     /// `h` is [`before_gradient`](Self::before_gradient).
     #[inline]
     pub fn strength(&self, h: f64, normal: &SeedNormal) -> f64 {
+        let h_d = self.direction.map_or(1.0, |direction| direction.at(normal.in_picture));
         if normal.n_dot_v > self.most_frontal {
             return 0.0;
         }
+        let s = self.product(h, h_d, normal);
+        if s < self.floor { 0.0 } else { s }
+    }
+
+    /// s without the floor, in a direction with this h_d.
+    #[inline]
+    fn product(&self, h: f64, h_d: f64, normal: &SeedNormal) -> f64 {
         let sideways = match self.side {
             // For unit vectors, the product can exceed 1 by an ulp.
             SeedSide::Power { exponent } => power((1.0 - normal.n_dot_v).max(0.0), exponent),
             SeedSide::Curvature { .. } if normal.tau > 0.0 => (1.0 - normal.n_dot_v / normal.tau).max(0.0),
             SeedSide::Curvature { .. } => 0.0,
         };
-        let h_d = self.direction.map_or(1.0, |direction| direction.at(normal.in_picture));
-        let s = (h * h_d * power(normal.magnitude, self.gradient_exponent) * sideways).min(1.0);
-        if s < self.floor { 0.0 } else { s }
+        (h * h_d * power(normal.magnitude, self.gradient_exponent) * sideways).min(1.0)
+    }
+}
+
+/// What errors leave of the quantities of a sample that seeds ([GPU-2]): their least and largest numbers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeedRanges {
+    pub(crate) value: [f64; 2],
+    pub(crate) alpha_u: [f64; 2],
+    /// The largest displacement of the place in world space.
+    pub(crate) displaced: f64,
+    /// The largest displacement of N in eye space.
+    pub(crate) turned: f64,
+    pub(crate) n_dot_v: [f64; 2],
+    pub(crate) magnitude: [f64; 2],
+    pub(crate) tau: [f64; 2],
+}
+
+impl Seeding {
+    /// The least and the largest s of a sample whose quantities have errors. s rises with h, h_d, |g| and τ, and falls
+    /// with |n·v|, so its ends are at the corners. h_v is linear between nodes, so its ends are at nodes or at the ends.
+    pub(crate) fn range(&self, at: &SeedPlace, normal: &SeedNormal, ranges: &SeedRanges) -> [f64; 2] {
+        /// Roundings of s in f32, relative to it: those of products, and of two powers down to the floor, whose exponents
+        /// y ln x are above −6.
+        const ROUNDINGS: f64 = 128.0 * f32::EPSILON as f64;
+        let hull = |[a, b]: [f64; 2], x: f64| [a.min(x), b.max(x)];
+        let mut h = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = ranges.value;
+        let inside: Vec<f64> = match &self.value {
+            ValueInfluence::Nodes(_, nodes) => {
+                nodes.iter().flat_map(|&at| [at.next_down(), at]).filter(|at| low < *at && *at < high).collect()
+            }
+            ValueInfluence::One | ValueInfluence::Opacity => Vec::new(),
+        };
+        for value in inside.into_iter().chain(ranges.value) {
+            for alpha_u in ranges.alpha_u {
+                // Without the focus, which has errors of its own.
+                h = hull(h, self.by_value(value, alpha_u));
+            }
+        }
+        if self.labels.as_ref().is_some_and(|labels| !labels.contains(&at.label)) {
+            return [0.0; 2];
+        }
+        let of_focus = self.focus.as_ref().map_or([1.0; 2], |focus| focus.range(at.world, ranges.displaced));
+        let rounded = [1.0 - ROUNDINGS, 1.0 + ROUNDINGS];
+        let h = [0, 1].map(|end| h[end].max(0.0) * of_focus[end]);
+        let directions = self.direction.map_or([1.0; 2], |d| d.range(normal.in_picture, ranges.turned));
+        let ends = |end: usize| {
+            let corner = SeedNormal {
+                in_picture: normal.in_picture,
+                n_dot_v: ranges.n_dot_v[1 - end],
+                magnitude: ranges.magnitude[end],
+                tau: ranges.tau[end],
+            };
+            // A threshold in f32 may be passed by a rounding.
+            let [h, s] = [h[end], self.product(h[end], directions[end], &corner)].map(|x| x * rounded[end]);
+            let is_frontal = corner.n_dot_v > self.most_frontal + [-ROUNDINGS, ROUNDINGS][end];
+            if is_frontal || h <= 0.0 || h < self.floor || s < self.floor { 0.0 } else { s.min(1.0) }
+        };
+        [ends(0), ends(1)]
     }
 }
 

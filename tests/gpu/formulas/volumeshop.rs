@@ -164,7 +164,7 @@ fn pictures_of_intersections() {
         table.extend([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 0.5]]);
         let at = format!("let found = intersection_at(2, {}, {}, x[0], x[1]);", size[0], size[1]);
         let kernel = ShaderKernel {
-            modules: modules(&["number/arithmetic", "number/bilinear", "volumeshop/intersection_picture"]),
+            modules: modules(&["number/arithmetic", "number/bilinear", "volumeshop/intersections_picture"]),
             lists: &[(25, pixels.as_flattened())],
             before: &at,
             results: &["found.r", "found.g", "found.b", "found.a", "share_of_range(x[0], 0.25, 0.5)"],
@@ -173,7 +173,7 @@ fn pictures_of_intersections() {
         // Two pixels of another picture come first.
         let picture = IntersectionPicture { size, pixels: pixels[2..].to_vec(), has_opacity: true };
         let truth = |&[x, y]: &[f64; 2]| {
-            let [r, g, b, a] = picture.at([x, y]);
+            let [r, g, b, a] = intersections::pictured(&picture, [x, y]);
             [r, g, b, a, (x - 0.25) / 0.5]
         };
         let found = errors(&gpu, &kernel, &table, truth, |_, _, _| 1.0);
@@ -211,7 +211,7 @@ fn dabs_of_intersections() {
                 "number/arithmetic",
                 "number/math",
                 "number/bilinear",
-                "volumeshop/intersection_picture",
+                "volumeshop/intersections_picture",
                 "volumeshop/intersections_dabs",
             ]),
         lists: &[(25, &numbers)],

@@ -1,18 +1,19 @@
 //! One ray of a picture, with bounds of its errors.
 
-use super::moved_ray::{MovedRay, with_errors_of};
-use super::positions::{Answer, RayOrigin};
+use super::layers::{LayerSums, Quantities};
+use super::positions::{Answer, is_in_box};
+use super::ray_halos::RayHalos;
 use super::surface::{BoundedHit, Met, SurfaceErrors, at_depth};
 use crate::accumulator::Accumulator;
 use crate::field::{Field, Sampler};
 use crate::number::ways::{self, Ways};
-use crate::number::{Bounded, Decision, Real, Vec3};
-use crate::ray::lattice::IndexRay;
+use crate::number::{Bounded, Decision, Real};
 use crate::ray::opacity::correct;
 use crate::ray::prepared::Prepared;
-use crate::ray::sample::{Evaluator, Previous, Sample, need};
+use crate::ray::sample::{Evaluator, Previous, Sample, SampleAttributes, need};
 use drypoint_scene::color;
 use drypoint_scene::counts::Counts;
+use drypoint_scene::fragments::Fragment;
 
 /// The result of a ray.
 pub(super) struct Traced {
@@ -20,83 +21,106 @@ pub(super) struct Traced {
     pub(super) front: Accumulator<Bounded>,
     /// The first decision that errors leave open and that shows in the result, if there is one.
     pub(super) undecided: Option<Decision>,
+    /// Whether the errors of `front` enclose the results of all outcomes of open decisions.
+    pub(super) is_enclosed: bool,
+    /// Sums for the other layers; none if there are no such layers.
+    pub(super) sums: Option<LayerSums>,
 }
 
 /// A sample as it is composited: straight colour in the blend space, and the opacity of its step.
 #[derive(Clone, Copy)]
-struct Shown {
+pub(super) struct Shown {
     rgb: [Bounded; 3],
     alpha: Bounded,
+    /// Quantities for the layers, if there are any.
+    quantities: Option<Quantities>,
 }
 
-/// Casts the ray through a point of the picture, in pixels from the top left corner.
-#[inline]
-pub(super) fn trace(
-    prepared: &Prepared<'_, Bounded>,
-    [i, j]: [f64; 2],
-    origin: RayOrigin,
-    surface: Option<&SurfaceErrors>,
-) -> Traced {
-    let (view, object) = (&prepared.view, &prepared.object);
-    let pixel = view.ray(i, j);
-    let ray = IndexRay::<Bounded>::new(&pixel, view, &prepared.lattice, object.volume.grid());
-    let grid = object.volume.grid();
-    let moved = (origin == RayOrigin::Middle).then(|| MovedRay::new(view, &prepared.lattice, grid, [i, j]));
-    let ray = ray.with_errors(object.ends, moved.as_ref());
-    let (mut v, mut v_eye) = (Vec3::from_glam(view.direction_to_world(pixel.v)), Vec3::from_glam(pixel.v));
-    let mut steps = Bounded::from_f64(ray.step / object.reference_length);
-    if let Some(moved) = &moved {
-        (v, v_eye) = (with_errors_of(v, moved.v), with_errors_of(v_eye, moved.v_eye));
-        steps = Bounded::new(steps.value(), (moved.step / Bounded::from_f64(object.reference_length)).error());
-    }
-    let dirs = object.shader.view_dirs(v, v_eye);
-    let evaluator = Evaluator::new(object, &object.field, ray, dirs, &prepared.eye_axes);
-    let mut tracer = Tracer {
-        prepared,
-        evaluator,
-        steps,
-        traced: Traced { front: Accumulator::empty(Bounded::ZERO), undecided: None },
-    };
-    if ray.cut_is_open(&object.clip.planes, v) {
-        tracer.mark(Decision::Cut);
-    }
-    let hit = surface.and_then(|errors| tracer.hit(errors));
-    let is_alone = prepared.surface.as_ref().is_some_and(|surface| surface.alone);
-    if (is_alone || tracer.samples(hit))
-        && let Some(hit) = hit
-    {
-        tracer.surface(hit);
-    }
-    tracer.traced
+/// A sample that an f32 renderer may visit, and what is known of it before it is evaluated.
+#[derive(Clone, Copy)]
+pub(super) struct Visit {
+    pub(super) k: i64,
+    /// Whether the reference visits it.
+    is_visited: bool,
+    /// Whether errors leave open whether it lies in the box.
+    is_inside_open: bool,
+    /// Whether its cut is open, or whether the surface lies before it.
+    open: Option<Decision>,
+    /// Whether it is the last sample before the surface.
+    pub(super) is_last: bool,
 }
 
 /// The state of a ray.
-struct Tracer<'p, 'v> {
-    prepared: &'p Prepared<'v, Bounded>,
-    evaluator: Evaluator<'p, 'v, Bounded, Field<'v, Bounded>>,
+pub(super) struct Tracer<'p, 'v> {
+    pub(super) prepared: &'p Prepared<'v, Bounded>,
+    pub(super) evaluator: Evaluator<'p, 'v, Bounded, Field<'v, Bounded>>,
     /// Δ_ray/Δ₀.
-    steps: Bounded,
-    traced: Traced,
+    pub(super) steps: Bounded,
+    /// Eye depth between samples.
+    depth_step: Bounded,
+    /// The lines that are left.
+    pub(super) lines: &'p [Fragment],
+    /// The last sample among lines, and the depth at which its step ends.
+    pub(super) before: Option<(Visit, f64)>,
+    /// A of the lines alone.
+    pub(super) of_lines: Bounded,
+    pub(super) traced: Traced,
+    /// The halos on the ray, if there are any.
+    halos: Option<RayHalos<'p>>,
+}
+
+impl<'p, 'v> Tracer<'p, 'v> {
+    /// A ray before its first sample. Its steps are `steps` reference lengths long, `depth_step` of them along the eye's
+    /// axis.
+    pub(super) fn new(
+        prepared: &'p Prepared<'v, Bounded>,
+        evaluator: Evaluator<'p, 'v, Bounded, Field<'v, Bounded>>,
+        [steps, depth_step]: [Bounded; 2],
+        halos: Option<RayHalos<'p>>,
+    ) -> Self {
+        let traced = Traced {
+            front: Accumulator::empty(Bounded::ZERO),
+            undecided: None,
+            is_enclosed: true,
+            sums: prepared.collects.then(LayerSums::new),
+        };
+        Self {
+            prepared,
+            evaluator,
+            steps,
+            depth_step,
+            lines: &[],
+            before: None,
+            of_lines: Bounded::ZERO,
+            traced,
+            halos,
+        }
+    }
 }
 
 impl Tracer<'_, '_> {
     /// The place at which the ray ends on the iso-surface, if there is one.
     #[inline]
-    fn hit(&mut self, errors: &SurfaceErrors) -> Option<BoundedHit> {
-        let ray = &self.evaluator.ray;
-        match errors.first(self.prepared, ray, ray.errors()) {
+    pub(super) fn hit(&mut self, errors: &SurfaceErrors) -> Option<BoundedHit> {
+        self.found(errors.first(self.prepared, &self.evaluator.ray))
+    }
+
+    /// The reference's intersection. Marks one that errors leave open.
+    pub(super) fn found(&mut self, met: Met) -> Option<BoundedHit> {
+        match met {
             Met::Nowhere => None,
             Met::At(hit) => Some(hit),
-            Met::Open(t) => {
+            Met::Open(hit) => {
                 self.mark(Decision::Surface);
-                t.map(|t| BoundedHit { t, error: 0.0 })
+                hit.map(|hit| BoundedHit { t: hit.t, error: 0.0, cut: hit.cut })
             }
         }
     }
 
-    /// Visits all samples that an f32 renderer may visit, up to the iso-surface. Returns whether the ray is still open.
+    /// Visits all samples that an f32 renderer may visit, up to the iso-surface, on a ray with or without lines. Returns
+    /// whether the ray is still open.
     #[inline]
-    fn samples(&mut self, hit: Option<BoundedHit>) -> bool {
+    pub(super) fn samples(&mut self, hit: Option<BoundedHit>, has_lines: bool) -> bool {
         let (object, ray) = (&self.prepared.object, self.evaluator.ray);
         let [first, last] = ray.candidates(object.ends);
         let [from, to] = ray.left_by(&object.clip.planes, object.ends, ray.inside(object.ends));
@@ -113,27 +137,96 @@ impl Tracer<'_, '_> {
             if inside == Answer::No || cut == Answer::Yes {
                 continue;
             }
-            let steps = hit.filter(|_| k == last_of_all).map_or(self.steps, |hit| self.share(k, hit));
-            let Some(shown) = self.shown(k, steps) else { continue };
             let (depth, slack) = (ray.depth(k), hit.map_or(0.0, |hit| hit.error + ray.depth(k).error()));
-            if hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= slack) {
-                self.mark(Decision::Surface);
-            }
-            if inside == Answer::Open {
-                self.mark(Decision::Inside);
-            }
-            if hangs_on_cut {
-                self.mark(Decision::Cut);
-            }
-            if k < from || k > to {
-                continue;
-            }
-            self.traced.front.over(shown.rgb, shown.alpha);
-            if !self.is_open() {
+            let is_at_surface = hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= slack);
+            let last = hit.filter(|_| k == last_of_all);
+            let visit = Visit {
+                k,
+                is_visited: (from..=to).contains(&k),
+                is_inside_open: inside == Answer::Open,
+                open: is_at_surface.then_some(Decision::Surface).or(hangs_on_cut.then_some(Decision::Cut)),
+                is_last: last.is_some(),
+            };
+            let is_open = if has_lines {
+                let step = ray.depth_step.value();
+                let until = last.map_or(((k + 1) as f64 * step, 0.0), |hit| (hit.t, hit.error / step));
+                self.lay_among_lines(visit, until)
+            } else {
+                self.lay(&visit, self.steps_of(k, hit, last_of_all))
+            };
+            if !is_open {
                 return false;
             }
         }
         true
+    }
+
+    /// Composites a sample, `steps` reference lengths long. Returns whether the ray is still open.
+    #[inline]
+    pub(super) fn lay(&mut self, visit: &Visit, steps: Bounded) -> bool {
+        let Some(shown) = self.shown(visit.k, steps) else { return true };
+        if let Some(decision) = visit.open {
+            self.mark(decision);
+        }
+        // The reference ends at A = 1. In f32 A may be less.
+        let has_ended = self.traced.front.opacity.value() >= self.prepared.stop_at.value();
+        if visit.is_inside_open {
+            self.mark_enclosed(Decision::Inside);
+        }
+        // A share of length 0 is none for the reference.
+        let is_laid = visit.is_visited && !has_ended && steps.value() > 0.0;
+        let shown = match (is_laid, visit.is_inside_open) {
+            (true, false) => Some(shown),
+            (true, true) => union(Some(shown), None),
+            (false, true) => union(None, Some(shown)),
+            (false, false) if visit.is_visited => union(None, Some(shown)),
+            (false, false) => None,
+        };
+        let Some(shown) = shown else { return true };
+        self.collect(&shown, shown.alpha, self.depth(visit.k));
+        self.put(visit.k, &shown)
+    }
+
+    /// Composites a sample among objects, which the reference visits or not. Returns whether the ray is still open.
+    #[inline]
+    pub(super) fn composite(&mut self, k: i64, shown: &Shown, hit: Option<BoundedHit>, visits: bool) -> bool {
+        let depth = self.evaluator.ray.depth(k);
+        if hit.is_some_and(|hit| (depth.value() - hit.t).abs() <= hit.error + depth.error()) {
+            self.mark(Decision::Surface);
+        }
+        !visits || self.put(k, shown)
+    }
+
+    /// Composites a sample behind the glow of the planes before it. Returns whether the ray is still open.
+    #[inline]
+    fn put(&mut self, k: i64, shown: &Shown) -> bool {
+        if !self.pass_planes(k) {
+            return false;
+        }
+        self.traced.front.over(self.tinted(shown.rgb), shown.alpha);
+        self.is_open()
+    }
+
+    /// Δ/Δ₀ of sample k. That of the last sample before the surface differs.
+    #[inline]
+    pub(super) fn steps_of(&self, k: i64, hit: Option<BoundedHit>, last_of_all: i64) -> Bounded {
+        hit.filter(|_| k == last_of_all).map_or(self.steps, |hit| self.share(k, hit))
+    }
+
+    /// The eye depth of sample k.
+    fn depth(&self, k: i64) -> Bounded {
+        Bounded::exact(k as f64 + 0.5) * self.depth_step
+    }
+
+    /// Adds a sample to the layers. A renderer whose ray may have ended may not add it.
+    #[inline]
+    fn collect(&mut self, shown: &Shown, alpha: Bounded, depth: Bounded) {
+        let through = Bounded::ONE - self.of_lines;
+        let may_have_ended = self.traced.front.opacity.ends()[1] >= self.prepared.stop_at.value();
+        let alpha = if may_have_ended { alpha.joined(Bounded::ZERO) } else { alpha };
+        if let (Some(sums), Some(quantities)) = (&mut self.traced.sums, &shown.quantities) {
+            sums.add(alpha, depth, quantities, through);
+        }
     }
 
     /// Δ/Δ₀ of the last sample before the surface. The sample stands for the way from the beginning of its own share to
@@ -147,32 +240,92 @@ impl Tracer<'_, '_> {
         Bounded::new(share * ray.step / reference, error * ray.step / reference)
     }
 
-    /// Composites the iso-surface behind the samples.
+    /// Composites the iso-surface, or a cut of it, behind the samples.
     #[inline]
-    fn surface(&mut self, hit: BoundedHit) {
-        let Some(surface) = &self.prepared.surface else { return };
-        let (ray, v) = (self.evaluator.ray, self.evaluator.dirs.v);
-        let position = at_depth(self.evaluator.inside(hit.t), &ray, ray.errors(), hit.error);
-        let sampler = self.evaluator.sampler;
+    pub(super) fn surface(&mut self, hit: BoundedHit) {
+        let prepared = self.prepared;
+        let (Some(surface), object) = (&prepared.surface, &prepared.object) else { return };
+        let (ray, dirs) = (self.evaluator.ray, self.evaluator.dirs);
+        let is_first = self.traced.sums.as_ref().is_some_and(LayerSums::is_empty);
+        let query = if is_first { surface.query.and(surface.first) } else { surface.query };
+        let with_errors = |position| at_depth(position, &ray, hit.error);
+        let place = with_errors(self.evaluator.inside(hit.t));
+        let before = self.evaluator.before(hit.t, prepared.view.perspective).map(with_errors);
+        let is_before_open = is_in_box(with_errors(self.evaluator.at(hit.t - ray.depth_step.value())), object.ends);
         let shown = self.merged(|tracer| {
-            let g = surface.query.gradient.then(|| sampler.gradient(position));
-            let normal = g.and_then(|g| tracer.prepared.object.normal(g, v));
-            let rgb = surface.lit.color(surface.rgb, normal, [v, surface.lit.half_vector(v)]);
-            Some(Shown { rgb: tracer.in_blend_space(rgb), alpha: Bounded::ONE })
+            let cut = hit.cut.map(|plane| object.clip.face(plane, &dirs, &prepared.eye_axes));
+            let counts = &mut Counts::default();
+            let mut attributes = tracer.evaluator.evaluate_at(place, before, query, counts);
+            if let Some(cut) = &cut {
+                attributes = cut.attributes(attributes);
+            }
+            let rgb = surface.lit.color(surface.rgb, attributes.normal, [dirs.v, surface.lit.half_vector(dirs.v)]);
+            let rgb = tracer.in_blend_space(cut.map_or(rgb, |cut| cut.over(rgb)));
+            let iso = Bounded::from_f64(surface.roots.iso());
+            let quantities = Quantities::new(iso, &attributes, (&prepared.eye_axes, &dirs));
+            let is_open = is_before_open == Answer::Open && cut.is_none();
+            let quantities = if is_open { quantities.with_open_kappa() } else { quantities };
+            Some(Shown { rgb, alpha: Bounded::ONE, quantities: Some(quantities) })
         });
         if let Some(shown) = shown {
-            self.traced.front.end(shown.rgb);
+            // d/Δ, the plane and the depth are rounded.
+            let error = 8.0 * f64::from(f32::EPSILON) * hit.t.abs();
+            let of_step = self.depth_step.error() * (hit.t / self.depth_step.value()).abs();
+            let depth = Bounded::new(hit.t, hit.error + error + of_step);
+            let has_ended = self.traced.front.opacity.value() >= prepared.stop_at.value();
+            let alpha = if has_ended { Bounded::new(0.0, 1.0) } else { Bounded::ONE };
+            self.collect(&shown, alpha, depth);
+            self.end(&shown, hit);
+        }
+    }
+
+    /// A linear colour of opacity 1.
+    #[inline]
+    pub(super) fn opaque(&self, rgb: [Bounded; 3]) -> Shown {
+        Shown { rgb: self.in_blend_space(rgb), alpha: Bounded::ONE, quantities: None }
+    }
+
+    /// Lays the glow behind each plane before plane k. Returns whether the ray is still open.
+    #[inline]
+    fn pass_planes(&mut self, k: i64) -> bool {
+        let Some(mut halos) = self.halos.take() else { return true };
+        let is_open = halos.pass(k, &mut |glow| {
+            self.traced.front.over_premultiplied(glow);
+            self.is_open()
+        });
+        self.halos = Some(halos);
+        is_open
+    }
+
+    /// Lays the glow behind all planes that follow the last sample.
+    #[inline]
+    pub(super) fn leave_halos(&mut self) {
+        if let Some(end) = self.halos.as_ref().map(RayHalos::end) {
+            self.pass_planes(end);
+        }
+    }
+
+    /// A colour under the tint of the next plane.
+    fn tinted(&self, rgb: [Bounded; 3]) -> [Bounded; 3] {
+        self.halos.as_ref().map_or(rgb, |halos| halos.tinted(rgb))
+    }
+
+    /// Composites what ends the ray at a hit.
+    #[inline]
+    pub(super) fn end(&mut self, shown: &Shown, hit: BoundedHit) {
+        if self.pass_planes(self.evaluator.ray.last_before(hit.t) + 1) {
+            self.traced.front.end(self.tinted(shown.rgb));
         }
     }
 
     /// Converts a linear colour to the blend space ([VAL-3]).
-    fn in_blend_space(&self, rgb: [Bounded; 3]) -> [Bounded; 3] {
+    pub(super) fn in_blend_space(&self, rgb: [Bounded; 3]) -> [Bounded; 3] {
         let encoded = |c| Bounded::monotone([c], |[c]| color::linear_to_srgb(c));
         if self.prepared.encode { rgb.map(encoded) } else { rgb }
     }
 
     /// Whether the ray goes on. Behind an opaque end, samples change no value, but A need not be 1 in f32.
-    fn is_open(&mut self) -> bool {
+    pub(super) fn is_open(&mut self) -> bool {
         let (a, stop_at) = (self.traced.front.opacity, self.prepared.stop_at.value());
         if stop_at >= 1.0 {
             return a.ends()[0] < 1.0;
@@ -193,7 +346,7 @@ impl Tracer<'_, '_> {
 
     /// The union of a sample on all ways. Marks the decisions at which ways differ visibly.
     #[inline]
-    fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
+    pub(super) fn merged(&mut self, mut shown: impl FnMut(&mut Self) -> Option<Shown>) -> Option<Shown> {
         let Ways { by_value, others, too_many } = ways::follow(|| shown(self));
         if too_many {
             self.mark(Decision::Many);
@@ -201,7 +354,7 @@ impl Tracer<'_, '_> {
         let mut merged = by_value;
         for (other, decision) in others {
             if self.parts(by_value, other) {
-                self.mark(decision);
+                self.mark_enclosed(decision);
             }
             merged = union(merged, other);
         }
@@ -210,7 +363,7 @@ impl Tracer<'_, '_> {
 
     /// A sample on one way.
     #[inline]
-    fn shaded(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
+    pub(super) fn shaded(&mut self, k: i64, steps: Bounded) -> Option<Shown> {
         let (object, counts) = (&self.prepared.object, &mut Counts::default());
         // The previous normal would be that of a single way.
         self.evaluator.previous = Previous::None;
@@ -220,19 +373,43 @@ impl Tracer<'_, '_> {
         }
         let sample = Sample { k, at, s: self.evaluator.sampler.value_at(at) };
         let place = object.function.locate(sample.s)?;
-        let ((rgb, alpha), _) = match &object.over_two {
+        let (shaded, attributes) = match &object.over_two {
             Some(over_two) => self.evaluator.shaded_over_two(over_two, sample, counts)?,
             None => self.evaluator.shaded::<need::Anything>(sample, &place, counts),
         };
-        Some(Shown {
+        let quantities = self.quantities(sample, attributes);
+        Some(Shown { quantities, ..self.corrected(shaded, steps) })
+    }
+
+    /// A sample as it is composited, `steps` reference lengths long, from its linear colour and its opacity per
+    /// reference length.
+    #[inline]
+    pub(super) fn corrected(&self, (rgb, alpha): ([Bounded; 3], Bounded), steps: Bounded) -> Shown {
+        Shown {
             rgb: self.in_blend_space(rgb),
-            alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps)),
-        })
+            // No share is shorter than 0, whatever its error.
+            alpha: Bounded::monotone([alpha, steps], |[alpha, steps]| correct(alpha, steps.max(0.0))),
+            quantities: None,
+        }
+    }
+
+    /// The quantities of a sample for the layers, if there are any.
+    #[inline]
+    fn quantities(&mut self, sample: Sample<Bounded>, attributes: SampleAttributes<Bounded>) -> Option<Quantities> {
+        let is_empty = self.traced.sums.as_ref()?.is_empty();
+        let mut attributes = attributes;
+        if let (Some(first), true) = (self.prepared.object.first, is_empty) {
+            attributes = self.evaluator.evaluate(sample, first, attributes, &mut Counts::default());
+        }
+        if let Some(cut) = self.evaluator.cut_at(sample.k) {
+            attributes = cut.attributes(attributes);
+        }
+        Some(Quantities::new(sample.s, &attributes, (&self.prepared.eye_axes, &self.evaluator.dirs)))
     }
 
     /// Whether the results of two ways differ visibly: the formula jumps between them by more than the bound that the
     /// ray already has.
-    fn parts(&self, a: Option<Shown>, b: Option<Shown>) -> bool {
+    pub(super) fn parts(&self, a: Option<Shown>, b: Option<Shown>) -> bool {
         let of = |shown: Option<Shown>| shown.map_or(Bounded::ZERO, |shown| shown.alpha);
         let apart = |a: Bounded, b: Bounded| {
             let gap = (a.value() - b.value()).abs() - a.error() - b.error();
@@ -256,23 +433,29 @@ impl Tracer<'_, '_> {
         through * share > bound
     }
 
-    fn mark(&mut self, decision: Decision) {
+    /// Notes an open decision, some of whose outcomes are not evaluated.
+    pub(super) fn mark(&mut self, decision: Decision) {
+        self.traced.is_enclosed = false;
+        self.mark_enclosed(decision);
+    }
+
+    /// Notes an open decision whose outcomes all lie within the errors.
+    fn mark_enclosed(&mut self, decision: Decision) {
         self.traced.undecided.get_or_insert(decision);
     }
 }
 
 /// The values of a sample, with a bound that also covers another way.
-fn union(sample: Option<Shown>, other: Option<Shown>) -> Option<Shown> {
-    let joined = |a: Bounded, b: Bounded| {
-        let away = (a.value() - b.value()).abs() + b.error();
-        Bounded::new(a.value(), if away.is_nan() { away } else { a.error().max(away) })
-    };
+#[inline]
+pub(super) fn union(sample: Option<Shown>, other: Option<Shown>) -> Option<Shown> {
     match (sample, other) {
-        (Some(a), Some(b)) => {
-            Some(Shown { rgb: [0, 1, 2].map(|c| joined(a.rgb[c], b.rgb[c])), alpha: joined(a.alpha, b.alpha) })
-        }
-        (Some(a), None) => Some(Shown { alpha: joined(a.alpha, Bounded::ZERO), ..a }),
-        (None, Some(b)) => Some(Shown { alpha: joined(Bounded::ZERO, b.alpha), ..b }),
+        (Some(a), Some(b)) => Some(Shown {
+            rgb: [0, 1, 2].map(|c| a.rgb[c].joined(b.rgb[c])),
+            alpha: a.alpha.joined(b.alpha),
+            quantities: a.quantities.zip(b.quantities).map(|(a, b)| a.joined(&b)),
+        }),
+        (Some(a), None) => Some(Shown { alpha: a.alpha.joined(Bounded::ZERO), ..a }),
+        (None, Some(b)) => Some(Shown { alpha: Bounded::ZERO.joined(b.alpha), ..b }),
         (None, None) => None,
     }
 }

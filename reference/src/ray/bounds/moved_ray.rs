@@ -14,7 +14,7 @@ pub(super) struct MovedRay {
     /// Index displacement for one unit of depth.
     along: Vec3<Bounded>,
     /// Eye depth between samples.
-    depth_step: Bounded,
+    pub(super) depth_step: Bounded,
     /// Depth of the plane in the middle, in steps.
     middle: f64,
     /// World distance between samples.
@@ -26,15 +26,21 @@ pub(super) struct MovedRay {
 }
 
 impl MovedRay {
-    /// The ray through a point of the picture, in pixels from the top left corner.
-    pub(super) fn new(view: &View, lattice: &Lattice, grid: &Grid, [i, j]: [f64; 2]) -> Self {
+    /// The depth of the plane through the middle of a picture's volume, in steps.
+    pub(super) fn middle(view: &View, lattice: &Lattice, grid: &Grid) -> f64 {
+        let by_ray = view.perspective && lattice.along == StepAlong::Ray;
+        let centre = view.to_eye(grid.centre());
+        let away = if by_ray { centre.length() } else { -centre.z };
+        (away / lattice.step).floor() + 0.5
+    }
+
+    /// The ray through a point of the picture, in pixels from the top left corner. `middle` is the depth of the plane
+    /// from which it starts.
+    #[inline]
+    pub(super) fn new(view: &View, lattice: &Lattice, (grid, middle): (&Grid, f64), [i, j]: [f64; 2]) -> Self {
         let number = Bounded::from_f64;
         let vector = |v: DVec3| Vec3::<Bounded>::from_glam(v);
         let by_ray = view.perspective && lattice.along == StepAlong::Ray;
-        // The plane through the middle of the volume.
-        let centre = view.to_eye(grid.centre());
-        let away = if by_ray { centre.length() } else { -centre.z };
-        let middle = (away / lattice.step).floor() + 0.5;
         let from_middle = number(lattice.step) * number(middle);
         // The point of the picture, from its middle, and the direction.
         let (x, y) = (number(i - view.size[0] as f64 / 2.0), number(view.size[1] as f64 / 2.0 - j));

@@ -4,6 +4,7 @@ use super::moved_ray::MovedRay;
 use crate::number::{Bounded, Vec3};
 use crate::ray::lattice::IndexRay;
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
+use drypoint_scene::glam::DVec3;
 
 /// Half a unit in the last place of 1, slightly increased to cover products of errors.
 const ROUNDING: f64 = 0.5 * f32::EPSILON as f64 * (1.0 + f32::EPSILON as f64);
@@ -37,6 +38,7 @@ impl IndexRay<Bounded> {
     /// From the eye a position is o + a·t with t = (k + ½)Δ. o, a and Δ are rounded once, and so are two products and a
     /// sum: u(|o| + 4|a·t| + |o + a·t|), u = 2⁻²⁴, where k + ½ is exact. Errors are convex in the depth, so the larger
     /// one at the ends of the box holds for the whole ray.
+    #[inline]
     pub(super) fn with_errors(mut self, ends: [Vec3<Bounded>; 2], moved: Option<&MovedRay>) -> Self {
         let Some(depths) = self.near_box(ends) else { return self };
         let [o, a] = [self.origin, self.along].map(Vec3::to_glam);
@@ -69,29 +71,50 @@ impl IndexRay<Bounded> {
     }
 
     /// Whether sample k lies in the closed box [lo, hi].
-    pub(super) fn is_inside(&self, k: i64, [lo, hi]: [Vec3<Bounded>; 2]) -> Answer {
-        let p = self.position(k);
-        let along = |p: Bounded, lo: Bounded, hi: Bounded| {
-            let ([from, to], [lo, hi]) = (p.ends(), [lo.value(), hi.value()]);
-            if to < lo || from > hi {
-                Answer::No
-            } else if from >= lo && to <= hi {
-                Answer::Yes
-            } else {
-                Answer::Open
+    pub(super) fn is_inside(&self, k: i64, ends: [Vec3<Bounded>; 2]) -> Answer {
+        is_in_box(self.position(k), ends)
+    }
+
+    /// The parts of the closed range of depths at which planes surely keep the ray and at which they may keep it: the
+    /// ranges of depths in which the kept part begins and ends. Returns none if planes surely cut all of the box away.
+    ///
+    /// A plane is met at t = −a/b. n·p − c is off by what the position is off along n, and by three products, two sums
+    /// and a difference of numbers of the size of n·|o| + n·|a·t| + |c|. The quotient is rounded once more.
+    #[inline]
+    pub(super) fn kept_part(
+        &self,
+        clip: &ClipPlanes,
+        range: [f64; 2],
+        ends: [Vec3<Bounded>; 2],
+    ) -> Option<[[f64; 2]; 2]> {
+        let [mut from, mut to] = range.map(|end| [end; 2]);
+        let Some(box_depths) = self.near_box(ends) else { return Some([from, to]) };
+        let (errors, [origin, along]) = (self.errors(), self.line());
+        let farthest = box_depths[0].abs().max(box_depths[1].abs());
+        for plane in &clip.0 {
+            let ((a, b), n) = (self.beyond(plane), plane.index_normal.abs());
+            let size = n.dot(origin.abs() + 2.0 * along.abs() * farthest) + plane.index_offset.abs();
+            let error = n.dot(DVec3::from_array(errors)) + 8.0 * ROUNDING * size;
+            let over = box_depths.map(|t| a + b * t);
+            if over.iter().all(|over| *over > error) {
+                return None;
             }
-        };
-        let axes = [along(p.x, lo.x, hi.x), along(p.y, lo.y, hi.y), along(p.z, lo.z, hi.z)];
-        if axes.contains(&Answer::No) {
-            Answer::No
-        } else if axes.contains(&Answer::Open) {
-            Answer::Open
-        } else {
-            Answer::Yes
+            if over.iter().all(|over| *over < -error) {
+                continue;
+            }
+            let (t, error) = (-a / b, error / b.abs());
+            let around = if t.is_finite() && error.is_finite() { [t - error, t + error] } else { box_depths };
+            if b < 0.0 {
+                from = [from[0].max(around[0]), from[1].max(around[1])];
+            } else {
+                to = [to[0].min(around[0]), to[1].min(around[1])];
+            }
         }
+        Some([from, to])
     }
 
     /// Whether errors leave open which plane ends the cut part of the ray, or which side of the plane is seen.
+    #[inline]
     pub(super) fn cut_is_open(&self, clip: &ClipPlanes, v: Vec3<Bounded>) -> bool {
         let errors = self.errors();
         let entry = |plane: &ClipPlane| {
@@ -134,5 +157,27 @@ impl IndexRay<Bounded> {
         } else {
             Answer::No
         }
+    }
+}
+
+/// Whether a position lies in the closed box [lo, hi].
+pub(super) fn is_in_box(p: Vec3<Bounded>, [lo, hi]: [Vec3<Bounded>; 2]) -> Answer {
+    let along = |p: Bounded, lo: Bounded, hi: Bounded| {
+        let ([from, to], [lo, hi]) = (p.ends(), [lo.value(), hi.value()]);
+        if to < lo || from > hi {
+            Answer::No
+        } else if from >= lo && to <= hi {
+            Answer::Yes
+        } else {
+            Answer::Open
+        }
+    };
+    let axes = [along(p.x, lo.x, hi.x), along(p.y, lo.y, hi.y), along(p.z, lo.z, hi.z)];
+    if axes.contains(&Answer::No) {
+        Answer::No
+    } else if axes.contains(&Answer::Open) {
+        Answer::Open
+    } else {
+        Answer::Yes
     }
 }

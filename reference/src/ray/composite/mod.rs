@@ -18,6 +18,8 @@ mod waiting_tile;
 
 pub(super) use cast::Cast;
 pub(super) use layers::{Sums, covering_objects};
-pub(super) use part_ray::depth_of_part;
+pub(super) use object_ray::ObjectRay;
+pub(super) use part_ray::{FieldEvaluator, depth_of_part};
 pub(super) use path::Step;
 pub(super) use ray_state::RayState;
+pub(super) use selection_ray::{EMPTY, PlacedSelection};

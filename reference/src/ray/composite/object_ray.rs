@@ -21,20 +21,20 @@ const SLACK: f64 = 1.0 / (1u64 << 32) as f64;
 const INLINE: usize = 16;
 
 /// The objects on a ray.
-pub(super) struct ObjectRay<'p, 'v, R: Real> {
-    pub(super) combination: &'p PreparedCombination<'v, R>,
-    pub(super) selections: Vec<SelectionRay>,
-    pub(super) parts: Vec<PartRay<'p, 'v, R>>,
+pub(in crate::ray) struct ObjectRay<'p, 'v, R: Real> {
+    pub(in crate::ray) combination: &'p PreparedCombination<'v, R>,
+    pub(in crate::ray) selections: Vec<SelectionRay<R>>,
+    pub(in crate::ray) parts: Vec<PartRay<'p, 'v, R>>,
     /// The background among objects. It decides on its kernel at every call, so that the code that combines sets exists
     /// once.
-    pub(super) behind: FieldEvaluator<'p, 'v, R>,
+    pub(in crate::ray) behind: FieldEvaluator<'p, 'v, R>,
     /// The samples at which the background can show something. On a ray for seeds, these are the samples at which it
     /// can seed.
-    pub(super) background: Vec<[i64; 2]>,
+    pub(in crate::ray) background: Vec<[i64; 2]>,
     /// The samples in the background's box.
-    inside: [i64; 2],
+    pub(in crate::ray) inside: [i64; 2],
     /// The first sample behind each cutaway.
-    cut_ends: Vec<i64>,
+    pub(in crate::ray) cut_ends: Vec<i64>,
     /// Working memory: the set of each part at a sample.
     found: Vec<Option<FoundPart<R>>>,
     /// The fractions w_N of the background and the parts at the last sample; empty if no layer shows them.
@@ -42,14 +42,14 @@ pub(super) struct ObjectRay<'p, 'v, R: Real> {
 }
 
 /// Colour and opacity of all objects at a sample, and the set that the layers read.
-pub(super) struct Together<R> {
-    pub(super) rgb: [R; 3],
-    pub(super) alpha: R,
+pub(in crate::ray) struct Together<R> {
+    pub(in crate::ray) rgb: [R; 3],
+    pub(in crate::ray) alpha: R,
     pub(super) largest: Largest<R>,
 }
 
 /// The set with the largest μ. If several are equal, selections come first, then ghosts, then the background.
-pub(super) struct Largest<R> {
+pub(in crate::ray) struct Largest<R> {
     /// Index of the set's part; none for the background.
     pub(super) part: Option<usize>,
     pub(super) sample: Sample<R>,
@@ -57,9 +57,20 @@ pub(super) struct Largest<R> {
 }
 
 impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
-    /// The objects on the ray through a point of the picture. Returns none if the ray meets no object. `background`
-    /// holds the samples at which the background can show something or seed; `inside` those in its box.
+    /// The objects on the ray through a point of the picture. Returns none if the ray meets no object. See
+    /// [`aimed`](Self::aimed).
     pub(super) fn new(
+        prepared: &'p Prepared<'v, R>,
+        point: [f64; 2],
+        samples: (impl Iterator<Item = [i64; 2]>, [i64; 2]),
+        counts: &mut Counts,
+    ) -> Option<Self> {
+        Self::aimed(prepared, point, samples, counts).filter(Self::meets_any)
+    }
+
+    /// The objects of a picture on the ray through a point. Returns none without objects. `background` holds the samples
+    /// at which the background can show something or seed; `inside` those in its box.
+    pub(in crate::ray) fn aimed(
         prepared: &'p Prepared<'v, R>,
         point: [f64; 2],
         (background, inside): (impl Iterator<Item = [i64; 2]>, [i64; 2]),
@@ -77,11 +88,15 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let behind = evaluator(&prepared.object, prepared, &pixel);
         let mut ray = Self { combination, selections, parts, behind, background, inside, cut_ends, found, fractions };
         ray.cut_ends = (0..combination.cutaways.len()).map(|i| ray.cut_end(i, prepared, point, counts)).collect();
-        let takes = |s: &SelectionRay| s.here.range[0] <= s.here.range[1];
-        let is_met = ray.parts.iter().any(|part| part.range[0] <= part.range[1])
-            || ray.selections.iter().zip(&combination.selections).any(|(ray, s)| s.takes && takes(ray))
-            || ray.background.first().is_some_and(|[first, _]| ray.cut_ends.iter().any(|end| first < end));
-        is_met.then_some(ray)
+        Some(ray)
+    }
+
+    /// Whether the ray meets an object.
+    fn meets_any(&self) -> bool {
+        let takes = |s: &SelectionRay<R>| s.here.range[0] <= s.here.range[1];
+        self.parts.iter().any(|part| part.range[0] <= part.range[1])
+            || self.selections.iter().zip(&self.combination.selections).any(|(ray, s)| s.takes && takes(ray))
+            || self.background.first().is_some_and(|[first, _]| self.cut_ends.iter().any(|end| first < end))
     }
 
     /// All samples at which something can be seen, in order and without overlap.
@@ -106,7 +121,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     }
 
     /// Splits the samples first..=last. Returns the first run, and whether it contains more than the background.
-    pub(super) fn run_from(&self, [first, last]: [i64; 2]) -> ([i64; 2], bool) {
+    pub(in crate::ray) fn run_from(&self, [first, last]: [i64; 2]) -> ([i64; 2], bool) {
         let mut end = last;
         let mut is_mixed = false;
         let mut meet = |[from, to]: [i64; 2]| {
@@ -137,7 +152,12 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
 
     /// Evaluates and combines all sets at sample k. Returns none if nothing is visible.
     #[inline(never)]
-    pub(super) fn together(&mut self, k: i64, prepared: &Prepared<'_, R>, counts: &mut Counts) -> Option<Together<R>> {
+    pub(in crate::ray) fn together(
+        &mut self,
+        k: i64,
+        prepared: &Prepared<'_, R>,
+        counts: &mut Counts,
+    ) -> Option<Together<R>> {
         let combination = self.combination;
         let fuzzy = combination.fuzzy;
         // The value of the background's volume, which its pieces share. It is evaluated at most once.
@@ -212,7 +232,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     /// Eq. 1 at a sample: the selections that are taken from the background, and the remaining background.
     pub(super) fn shares(&self, here: &mut Here<R>, counts: &mut Counts) -> Shares<R> {
         let (combination, k) = (self.combination, here.k);
-        let takes = |(ray, s): &(&SelectionRay, &PreparedSelection<'_, R>)| s.takes && contains(ray.here.range, k);
+        let takes = |(ray, s): &(&SelectionRay<R>, &PreparedSelection<'_, R>)| s.takes && contains(ray.here.range, k);
         if !self.selections.iter().zip(&combination.selections).any(|pair| takes(&pair)) {
             return Shares::whole();
         }
@@ -253,7 +273,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
     /// Bytes of the objects on one ray, without the ranges of the background.
     pub(super) fn most_bytes(combination: &PreparedCombination<'_, R>) -> u64 {
         let of_part = size_of::<PartRay<'_, '_, R>>() + size_of::<Option<FoundPart<R>>>();
-        let of_selections = combination.selections.len() * size_of::<SelectionRay>();
+        let of_selections = combination.selections.len() * size_of::<SelectionRay<R>>();
         (size_of::<Self>() + combination.parts.len() * of_part + of_selections) as u64
     }
 
@@ -311,17 +331,19 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         let (a, b) = (of_selection.1, of_other.1);
         let [a, b] = if params.swap { [b, a] } else { [a, b] };
         let preset = intersections::opacity(params.opacity, a, b);
-        let values = [other.sample.s.to_f64(), selection.sample.s.to_f64()];
+        let values = [other.sample.s, selection.sample.s];
         let unpainted = match (&params.color, intersection.picture) {
             (IntersectionPaint::Mean, _) => {
                 (intersections::mean(of_selection, of_other).unwrap_or([R::ZERO; 3]), preset)
             }
             (IntersectionPaint::Color(rgb, opacity), _) => (rgb.map(R::from_f64), preset * R::from_f64(*opacity)),
             (IntersectionPaint::Picture(ranges), picture) => {
-                let share = |i: usize| (values[i] - ranges[i][0]) / (ranges[i][1] - ranges[i][0]);
-                let [r, g, b, opacity] = picture?.at([share(0), share(1)]);
-                let alpha = if picture?.has_opacity { R::from_f64(opacity) } else { preset };
-                ([r, g, b].map(R::from_f64), alpha)
+                let share = |i: usize| {
+                    let [low, high] = ranges[i];
+                    (values[i] - R::from_f64(low)) / R::from_f64(high - low)
+                };
+                let [r, g, b, opacity] = intersections::pictured(picture?, [share(0), share(1)]);
+                ([r, g, b], if picture?.has_opacity { opacity } else { preset })
             }
         };
         let paint = |under, dab| intersections::painted(under, dab, values);
@@ -393,7 +415,7 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
 pub(super) fn selection_set<'a, 'v, R: Real>(
     part: &PreparedPart<'v, R>,
     combination: &'a PreparedCombination<'v, R>,
-    selections: &'a [SelectionRay],
+    selections: &'a [SelectionRay<R>],
     shares: &Shares<R>,
 ) -> SelectionSet<'a, 'v, R> {
     let (selection, ray) = (&combination.selections[part.selection], &selections[part.selection]);

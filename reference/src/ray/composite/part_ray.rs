@@ -14,14 +14,14 @@ use drypoint_scene::shot::{Cut, Fuzzy};
 use drypoint_scene::view::Ray;
 
 /// An evaluator of a field of any kernel.
-pub(super) type FieldEvaluator<'p, 'v, R> = Evaluator<'p, 'v, R, Field<'v, R>>;
+pub(in crate::ray) type FieldEvaluator<'p, 'v, R> = Evaluator<'p, 'v, R, Field<'v, R>>;
 
 /// A part on a ray.
-pub(super) struct PartRay<'p, 'v, R: Real> {
-    pub(super) part: &'p PreparedPart<'v, R>,
-    pub(super) evaluator: FieldEvaluator<'p, 'v, R>,
+pub(in crate::ray) struct PartRay<'p, 'v, R: Real> {
+    pub(in crate::ray) part: &'p PreparedPart<'v, R>,
+    pub(in crate::ray) evaluator: FieldEvaluator<'p, 'v, R>,
     /// The samples at which the part can show something.
-    pub(super) range: [i64; 2],
+    pub(in crate::ray) range: [i64; 2],
 }
 
 /// A part's selection set on a ray.
@@ -29,7 +29,7 @@ pub(super) struct PartRay<'p, 'v, R: Real> {
 pub(super) struct SelectionSet<'a, 'v, R: Real> {
     pub(super) selection: &'a PreparedSelection<'v, R>,
     /// The selection at the place where the part is drawn.
-    pub(super) placed: &'a PlacedSelection,
+    pub(super) placed: &'a PlacedSelection<R>,
     /// The factor of f_S: 1, or the share of a piece of the background.
     pub(super) share: R,
 }
@@ -51,7 +51,7 @@ pub(super) struct FoundPart<R> {
 impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     pub(super) fn new(
         part: &'p PreparedPart<'v, R>,
-        selection: &SelectionRay,
+        selection: &SelectionRay<R>,
         prepared: &'p Prepared<'v, R>,
         pixel: &Ray,
     ) -> Self {
@@ -125,10 +125,10 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     }
 
     /// Whether μ > 0 at sample k.
-    fn is_member(
+    pub(in crate::ray) fn is_member(
         &mut self,
         k: i64,
-        (selection, placed): (&PreparedSelection<'_, R>, &PlacedSelection),
+        (selection, placed): (&PreparedSelection<'_, R>, &PlacedSelection<R>),
         counts: &mut Counts,
     ) -> bool {
         let mut found = || {
@@ -145,7 +145,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     pub(super) fn depth(
         &mut self,
         selection: &PreparedSelection<'_, R>,
-        ray: &SelectionRay,
+        ray: &SelectionRay<R>,
         cut: Cut,
         counts: &mut Counts,
     ) -> f64 {

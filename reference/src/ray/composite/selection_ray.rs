@@ -8,26 +8,26 @@ use drypoint_scene::space::Grid;
 use drypoint_scene::view::Ray;
 
 /// No samples.
-pub(super) const EMPTY: [i64; 2] = [1, 0];
+pub(in crate::ray) const EMPTY: [i64; 2] = [1, 0];
 
 /// A selection on a ray, at its original place and where it is moved.
-pub(super) struct SelectionRay {
-    pub(super) here: PlacedSelection,
-    pub(super) there: PlacedSelection,
+pub(in crate::ray) struct SelectionRay<R> {
+    pub(in crate::ray) here: PlacedSelection<R>,
+    pub(in crate::ray) there: PlacedSelection<R>,
 }
 
 /// A selection's grid on a ray.
-pub(super) struct PlacedSelection {
+pub(in crate::ray) struct PlacedSelection<R> {
     /// The ray in the index space of the memberships.
-    pub(super) ray: Option<IndexRay<f64>>,
+    pub(in crate::ray) ray: Option<IndexRay<R>>,
     /// The samples at which there can be members.
-    pub(super) range: [i64; 2],
+    pub(in crate::ray) range: [i64; 2],
 }
 
-impl SelectionRay {
-    pub(super) fn new<R: Real>(selection: &PreparedSelection<'_, R>, prepared: &Prepared<'_, R>, pixel: &Ray) -> Self {
+impl<R: Real> SelectionRay<R> {
+    pub(super) fn new(selection: &PreparedSelection<'_, R>, prepared: &Prepared<'_, R>, pixel: &Ray) -> Self {
         let placed = |grid: Option<&Grid>| {
-            let ray = grid.map(|grid| IndexRay::<f64>::new(pixel, &prepared.view, &prepared.lattice, grid));
+            let ray = grid.map(|grid| IndexRay::<R>::new(pixel, &prepared.view, &prepared.lattice, grid));
             let range = ray.zip(selection.members).map(|(ray, ends)| ray.inside(ends.map(Vec3::from_glam)));
             PlacedSelection { ray, range: range.unwrap_or(EMPTY) }
         };
@@ -35,9 +35,9 @@ impl SelectionRay {
     }
 }
 
-impl PlacedSelection {
+impl<R: Real> PlacedSelection<R> {
     /// f_S at sample k, which lies in the box. `value` returns the value of the data.
-    pub(super) fn membership<R: Real>(
+    pub(super) fn membership(
         &self,
         selection: &PreparedSelection<'_, R>,
         k: i64,
@@ -49,9 +49,7 @@ impl PlacedSelection {
                 let place = value().and_then(|s| function.locate(s));
                 place.map_or(R::ZERO, |place| place.alpha_u)
             }
-            (PreparedMembership::Voxels(memberships), Some(ray)) => {
-                R::from_f64(memberships.at(ray.position(k).to_glam()))
-            }
+            (PreparedMembership::Voxels(memberships), Some(ray)) => memberships.at(ray.position(k)),
             (PreparedMembership::Voxels(_), None) => R::ZERO,
         }
     }

@@ -117,11 +117,29 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
         perspective: bool,
         counts: &mut Counts,
     ) -> SampleAttributes<R> {
+        self.evaluate_at(self.inside(depth), self.before(depth, perspective), query, counts)
+    }
+
+    /// The place one step before a depth. Returns none outside the box and behind the eye.
+    pub(crate) fn before(&self, depth: f64, perspective: bool) -> Option<Vec3<R>> {
+        let before = depth - self.ray.depth_step.to_f64();
+        let position = self.inside(before);
+        (position == self.at(before) && !(perspective && before <= 0.0)).then_some(position)
+    }
+
+    /// Evaluates a query at a place on the ray. `before` is the place one step before it, if that is in the box.
+    pub(crate) fn evaluate_at(
+        &self,
+        position: Vec3<R>,
+        before: Option<Vec3<R>>,
+        query: SampleQuery,
+        counts: &mut Counts,
+    ) -> SampleAttributes<R> {
         let mut attributes = SampleAttributes::neutral();
         if !query.gradient {
             return attributes;
         }
-        let at = self.sampler.place(self.inside(depth));
+        let at = self.sampler.place(position);
         counts.gradients += 1;
         attributes.gradient = self.sampler.gradient_at(at);
         attributes.normal = self.normal(attributes.gradient);
@@ -132,10 +150,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
                 self.curvatures(self.sampler.hessian_at(at), query, known, counts);
         }
         if query.kappa == KappaSource::AlongRay {
-            let before = depth - self.ray.depth_step.to_f64();
-            let position = self.inside(before);
-            let is_before = position == self.at(before) && !(perspective && before <= 0.0);
-            let before = is_before.then(|| {
+            let before = before.map(|position| {
                 counts.gradients += 1;
                 self.sampler.gradient(position)
             });
@@ -206,7 +221,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
     }
 
     /// The index position at a depth.
-    fn at(&self, depth: f64) -> Vec3<R> {
+    pub(crate) fn at(&self, depth: f64) -> Vec3<R> {
         let [origin, along] = self.ray.line();
         Vec3::from_glam(origin + along * depth)
     }

@@ -25,10 +25,10 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         let position = self.ray.position(sample.k);
         let mut attributes = SampleAttributes::neutral();
         let reads = seeds.reads_opacity;
-        let (alpha_u, asked) = if reads { self.alpha_u(sample, &mut attributes, counts) } else { (0.0, false) };
+        let (alpha_u, asked) = if reads { self.alpha_u(sample, &mut attributes, counts) } else { (R::ZERO, false) };
         let place = SeedPlace {
             value: sample.s.to_f64(),
-            alpha_u,
+            alpha_u: alpha_u.to_f64(),
             world: if seeds.reads_places { self.object.grid.to_world(position.to_glam()) } else { DVec3::ZERO },
             label: seeds.labels.as_ref().map_or(0, |labels| labels.id_at(position)),
         };
@@ -68,12 +68,17 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
     /// α_u of a sample. The flag tells whether a function over two quantities evaluated its query, whose attributes are
     /// then known.
     #[inline]
-    fn alpha_u(&mut self, sample: Sample<R>, attributes: &mut SampleAttributes<R>, counts: &mut Counts) -> (f64, bool) {
+    pub(in crate::ray) fn alpha_u(
+        &mut self,
+        sample: Sample<R>,
+        attributes: &mut SampleAttributes<R>,
+        counts: &mut Counts,
+    ) -> (R, bool) {
         let object = self.object;
-        let Some(place) = object.function.locate(sample.s) else { return (0.0, false) };
-        let Some(over_two) = &object.over_two else { return (place.alpha_u.to_f64(), false) };
+        let Some(place) = object.function.locate(sample.s) else { return (R::ZERO, false) };
+        let Some(over_two) = &object.over_two else { return (place.alpha_u, false) };
         *attributes = self.evaluate(sample, over_two.first, *attributes, counts);
         let here = self.quantities(sample, attributes);
-        (over_two.locate(&here).map_or(0.0, |patch| patch.alpha_u.to_f64()), true)
+        (over_two.locate(&here).map_or(R::ZERO, |patch| patch.alpha_u), true)
     }
 }

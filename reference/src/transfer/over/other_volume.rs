@@ -34,7 +34,7 @@ impl<R: Real> AxisMeasure<R> for OtherVolume<'_, R> {
     fn at(&self, here: &SampleQuantities<R>) -> Coordinate<R> {
         let position = match &self.map {
             None => Some(here.position),
-            Some(map) => map.position(here.position.to_glam()).map(Vec3::from_glam),
+            Some(map) => on_other_grid(map, here.position),
         };
         let value = position.and_then(|p| {
             let at = self.field.place(p);
@@ -47,6 +47,17 @@ impl<R: Real> AxisMeasure<R> for OtherVolume<'_, R> {
     fn bytes(&self) -> Option<(&'static str, u64)> {
         Some(("further volume", self.field.volume().voxels().bytes() as u64))
     }
+}
+
+/// A position on another grid. Returns none outside its box, with the slack of [`OtherGrid`].
+#[inline]
+fn on_other_grid<R: Real>(map: &OtherGrid, position: Vec3<R>) -> Option<Vec3<R>> {
+    let p = R::mapped(position, map.parts());
+    let [lo, hi] = map.reach().map(Vec3::<R>::from_glam);
+    let is_there = p.x >= lo.x && p.x <= hi.x && p.y >= lo.y && p.y <= hi.y && p.z >= lo.z && p.z <= hi.z;
+    let [lo, hi] = map.own_box().map(Vec3::<R>::from_glam);
+    let inside = |p: R, lo: R, hi: R| p.max(lo).min(hi);
+    is_there.then(|| Vec3::new(inside(p.x, lo.x, hi.x), inside(p.y, lo.y, hi.y), inside(p.z, lo.z, hi.z)))
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 // Pictures of intersection transfer functions ([VS-4]): colours over the value at p and that at T p.
-// Twin: scene/src/intersection_picture.rs
+// Twin: reference/src/volumeshop/intersections.rs
 
 // Pixels of pictures, and dabs.
 @group(1) @binding(25) var<storage, read> intersection_tables: array<vec4<real>>;

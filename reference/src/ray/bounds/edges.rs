@@ -1,0 +1,110 @@
+//! Pixels that get more rays at edges ([RAY-7]).
+//!
+//! A pixel is at an edge if it differs from one of its eight neighbours by more than the contrast, in one channel of
+//! the displayed picture of one ray a pixel. If errors leave that open, the pixel is drawn both ways. Where both results
+//! overlap, their union is the bound. Otherwise the pixel is undecided.
+
+use super::BoundedPixel;
+use super::positions::Answer;
+use crate::number::{Arithmetic, Bounded, Decision, Real};
+use drypoint_scene::color::linear_to_srgb;
+use drypoint_scene::parallel;
+
+/// A pixel as it is displayed, and whether its errors can be relied on.
+struct DisplayedPixel {
+    rgba: [Bounded; 4],
+    is_enclosed: bool,
+}
+
+/// The refinement of a picture of one ray a pixel.
+pub(super) struct Refinement {
+    pub(super) size: [usize; 2],
+    pub(super) contrast: f64,
+    /// Whether each channel beyond the beauty is a mean over rays. The others keep the numbers of the middle ray.
+    pub(super) is_mean: Vec<bool>,
+}
+
+impl Refinement {
+    /// Adds rays to a picture. `draw` draws a pixel with all rays that it has at an edge.
+    #[inline]
+    pub(super) fn refined(
+        &self,
+        pixels: Vec<BoundedPixel>,
+        draw: &(dyn Fn(usize) -> BoundedPixel + Sync),
+    ) -> Vec<BoundedPixel> {
+        let [width, height] = self.size;
+        let displayed: Vec<DisplayedPixel> = pixels.iter().map(displayed).collect();
+        let contrast = Bounded::from_f64(self.contrast);
+        let draw = |at: usize, plain: &BoundedPixel| {
+            let mut pixel = draw(at);
+            for (c, _) in self.is_mean.iter().enumerate().filter(|(_, is_mean)| !**is_mean) {
+                pixel.more[c] = plain.more[c];
+            }
+            pixel
+        };
+        parallel::map_of(pixels, &|at, plain| {
+            let [x, y] = [at % width, at / width];
+            let rows = y.saturating_sub(1)..(y + 2).min(height);
+            let near = rows.flat_map(|y| (x.saturating_sub(1)..(x + 2).min(width)).map(move |x| y * width + x));
+            // The reference's outcome, and that of an f32 renderer.
+            let (mut is_at_edge, mut answer) = (false, Answer::No);
+            for other in near.filter(|&other| other != at) {
+                let (by_value, of_pair) = differ(&displayed[at], &displayed[other], contrast);
+                is_at_edge |= by_value;
+                answer = match (answer, of_pair) {
+                    (Answer::Yes, _) | (_, Answer::Yes) => Answer::Yes,
+                    (Answer::No, Answer::No) => Answer::No,
+                    _ => Answer::Open,
+                };
+            }
+            match (answer, is_at_edge) {
+                (Answer::No, _) => plain,
+                (Answer::Yes, _) => draw(at, &plain),
+                (Answer::Open, true) => either(draw(at, &plain), &plain),
+                (Answer::Open, false) => {
+                    let other = draw(at, &plain);
+                    either(plain, &other)
+                }
+            }
+        })
+    }
+}
+
+/// The displayed channels: R, G and B in [0, 1] and encoded to sRGB, and α.
+fn displayed(pixel: &BoundedPixel) -> DisplayedPixel {
+    let [r, g, b, a] = pixel.rgba;
+    let encoded = |c: Bounded| Bounded::monotone([c.clamp_01()], |[c]| linear_to_srgb(c));
+    DisplayedPixel { rgba: [encoded(r), encoded(g), encoded(b), a], is_enclosed: pixel.is_enclosed }
+}
+
+/// Whether two pixels differ by more than the contrast: for the reference, and for an f32 renderer.
+fn differ(a: &DisplayedPixel, b: &DisplayedPixel, contrast: Bounded) -> (bool, Answer) {
+    let over = [0, 1, 2, 3].map(|c| {
+        let apart = a.rgba[c] - b.rgba[c];
+        Bounded::new(apart.value().abs() - contrast.value(), apart.error() + contrast.error())
+    });
+    let by_value = over.iter().any(|over| over.value() > 0.0);
+    let answer = if !(a.is_enclosed && b.is_enclosed) {
+        Answer::Open
+    } else if over.iter().any(|over| over.ends()[0] > 0.0) {
+        Answer::Yes
+    } else if over.iter().all(|over| over.ends()[1] <= 0.0) {
+        Answer::No
+    } else {
+        Answer::Open
+    };
+    (by_value, answer)
+}
+
+/// The reference's pixel, with a bound that also covers the other outcome.
+#[inline]
+fn either(pixel: BoundedPixel, other: &BoundedPixel) -> BoundedPixel {
+    let gap = |c: usize| (pixel.rgba[c].value() - other.rgba[c].value()).abs();
+    let is_apart = (0..4).any(|c| gap(c) > pixel.rgba[c].error() + other.rgba[c].error());
+    BoundedPixel {
+        rgba: [0, 1, 2, 3].map(|c| pixel.rgba[c].joined(other.rgba[c])),
+        undecided: pixel.undecided.or(other.undecided).or(is_apart.then_some(Decision::Edge)),
+        is_enclosed: pixel.is_enclosed && other.is_enclosed,
+        more: pixel.more.iter().zip(&other.more).map(|(own, other)| own.joined(*other)).collect(),
+    }
+}
