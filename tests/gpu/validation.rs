@@ -1,7 +1,7 @@
 //! Pictures in f32 within their derived bounds, effect by effect.
 
 use crate::gpu;
-use crate::halo_scenes::{self, FIVE};
+use crate::halo_scenes;
 use crate::mesh_scenes::{Meshes, scene};
 use crate::object_scenes::{Files, MOVED, PRODUCT, object, shells, styled};
 use drypoint::gpu::Gpu;
@@ -70,7 +70,6 @@ fn halos_keep_their_bounds() {
         ("a median", "", "[[halo]]\nevery = 2\nspread = { passes = 3, median = true }\n"),
         ("by direction", "", "[[halo]]\nevery = 2\nseed.direction = { toward = 30, width = 120, softness = 40 }\n"),
         ("before an iso-surface", "", "[[halo]]\nevery = 2\n[surface]\niso = 145\n"),
-        ("five", "", FIVE),
     ] {
         let (bounded, _) = kept(&gpu, name, &halo_scenes::scene(picture, tables));
         assert!(bounded.undecided + bounded.endless <= MOST_UNDECIDED, "{name}: {:?}", bounded.decisions);
