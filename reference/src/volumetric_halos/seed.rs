@@ -152,7 +152,7 @@ impl Seeding {
     }
 }
 
-/// What errors leave of the quantities of a sample that seeds ([GPU-2]): their least and largest numbers.
+/// The least and largest numbers that errors leave of the quantities of a sample that seeds ([GPU-2]).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeedRanges {
     pub(crate) value: [f64; 2],
