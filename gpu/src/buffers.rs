@@ -3,29 +3,24 @@
 use crate::{Gpu, GpuError};
 use std::sync::mpsc;
 
+/// A shader that the device has read. All entry points of a text share it.
+pub(crate) fn shader_module(gpu: &Gpu, text: &str) -> Result<wgpu::ShaderModule, GpuError> {
+    gpu.attempt("the shader", || {
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source })
+    })
+}
+
 /// A pipeline of a shader's entry point.
 pub(crate) fn pipeline(
     gpu: &Gpu,
-    text: String,
+    module: &wgpu::ShaderModule,
     entry_point: &'static str,
     groups: &[&wgpu::BindGroupLayout],
-) -> Result<wgpu::ComputePipeline, GpuError> {
-    pipeline_with(gpu, text, entry_point, groups, &[])
-}
-
-/// A pipeline of a shader's entry point with values of its constants.
-pub(crate) fn pipeline_with(
-    gpu: &Gpu,
-    text: String,
-    entry_point: &'static str,
-    groups: &[&wgpu::BindGroupLayout],
-    constants: &[(&str, f64)],
 ) -> Result<wgpu::ComputePipeline, GpuError> {
     let groups: Vec<_> = groups.iter().map(|&group| Some(group)).collect();
     gpu.count_pipeline();
     gpu.attempt("the shader", || {
-        let source = wgpu::ShaderSource::Wgsl(text.into());
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(entry_point), source });
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(entry_point),
             bind_group_layouts: &groups,
@@ -34,10 +29,10 @@ pub(crate) fn pipeline_with(
         gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry_point),
             layout: Some(&layout),
-            module: &module,
+            module,
             entry_point: Some(entry_point),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
+                constants: &[],
                 // Workgroups write their memory before they read it.
                 zero_initialize_workgroup_memory: false,
             },

@@ -1,7 +1,7 @@
 //! Functions of shaders over tables of inputs, for comparing single formulas.
 
 use crate::block::ParamBlock;
-use crate::buffers::{buffer, entry, list_entry, pipeline, read};
+use crate::buffers::{buffer, entry, list_entry, pipeline, read, shader_module};
 use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::glam::DVec3;
 use std::fmt::Write;
@@ -76,7 +76,8 @@ impl ShaderKernel<'_> {
         };
         let first = layout(&[list_entry(0, true), list_entry(1, false), list_entry(2, true)]);
         let second = layout(&lists.iter().map(|(binding, _)| list_entry(*binding, true)).collect::<Vec<_>>());
-        let pipeline = pipeline(gpu, self.text(&block, precision, columns), "kernel", &[&first, &second])?;
+        let module = shader_module(gpu, &self.text(&block, precision, columns))?;
+        let pipeline = pipeline(gpu, &module, "kernel", &[&first, &second])?;
         let group = |layout, entries: &[wgpu::BindGroupEntry<'_>]| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("kernel"), layout, entries })
         };

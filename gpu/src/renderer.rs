@@ -1,6 +1,6 @@
 //! A shot prepared for drawing any number of frames.
 
-use crate::buffers::{buffer, check_lists, list_entry, read};
+use crate::buffers::{buffer, check_lists, list_entry, read, shader_module};
 use crate::canvas::Canvas;
 use crate::clock::Clock;
 use crate::compose::objects::PlacesOfObjects;
@@ -113,17 +113,18 @@ impl CardRenderer {
         let grid = inputs.data.main.volume.grid();
         let lines = inputs.has_lines.then(|| LinesOnRays::new(shot, grid));
         let objects = PlacesOfObjects::new(shot, inputs)?;
-        let funnels = FunnelPasses::new(gpu, shot, &text, &data_layout, precision)?;
+        let module = shader_module(gpu, &text)?;
+        let funnels = FunnelPasses::new(gpu, shot, &module, &data_layout, precision)?;
         let of_data = shader.data.iter().filter(|(_, _, data)| data.is_list()).count();
         let rays = if shot.halos.list.is_empty() {
             let of_lines = lines.iter().flat_map(|_| [LINE_STARTS, LINES]);
             let further: Vec<u32> = of_lines.chain(funnels.as_ref().map(|_| MAPS)).collect();
             // Scalars, the picture, and the picture before refinement.
             check_lists(gpu, of_data + 2 + usize::from(shot.refine_above.is_some()) + further.len())?;
-            Rays::Alone(RayPasses::new(gpu, (shot, grid), &text, &data_layout, &layers, &further)?)
+            Rays::Alone(RayPasses::new(gpu, (shot, grid), &module, &data_layout, &layers, &further)?)
         } else {
             let extent = extent(shot, inputs, &objects, (&scales, precision))?;
-            let (shader, further) = ((&shader, text.as_str()), funnels.as_ref().map(|_| MAPS));
+            let (shader, further) = ((&shader, &module), funnels.as_ref().map(|_| MAPS));
             check_lists(gpu, of_data + planes::LISTS + usize::from(further.is_some()))?;
             let planes = HaloPlanes::new(gpu, shot, (grid, extent), further, shader, &data_layout, precision)?;
             Rays::Together(Box::new(planes))

@@ -24,7 +24,10 @@ nodes = [{ at = 100, color = "#804020", opacity = 0 }, { at = 128, color = "#ffc
 pub(crate) fn scene(picture: &str, tables: &str) -> String {
     let samples = if picture.contains("samples") { "" } else { "samples = 1\n" };
     let background = if picture.contains("background") { "" } else { "background = \"#d0c8b0\"\n" };
-    TORUS.replace("PICTURE\n", &format!("{samples}{background}{picture}\n")) + tables
+    // As few planes as tell them apart: images of all of them are spread.
+    let sampling = if tables.contains("[sampling]") { "" } else { "[sampling]\nstep = \"1 voxel\"\n" };
+    let start = TORUS.replace("PICTURE\n", &format!("{samples}{background}{picture}\n"));
+    [&start, tables, sampling].concat()
 }
 
 /// Five halos of both kinds: more than a vector of the images has channels.

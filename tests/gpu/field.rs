@@ -1,6 +1,6 @@
 //! The field between voxels, up to its border, in pictures: kernels, gradients, curvatures, masked voxels, iso-surfaces.
 
-use crate::double::differences;
+use crate::double::agrees;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -56,9 +56,7 @@ background = "#203040"
 /// Compares a scene of each volume.
 pub(crate) fn compare(name: &str, volumes: &[([usize; 3], &str)], more: &str) {
     for &(dims, kind) in volumes {
-        let Some([double, single]) = differences(&scene(dims, kind, more)) else { return };
-        println!("{name} {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
-        assert!(double < 1e-9, "{name} {dims:?}: {double:e}");
+        agrees(&format!("{name} {dims:?} {kind}"), &scene(dims, kind, more));
     }
 }
 
@@ -125,9 +123,7 @@ fn surfaces() {
     for (dims, kind) in VOLUMES {
         let text = scene(dims, kind, phong);
         let (start, end) = (text.find("[transfer]").unwrap(), text.find("[picture]").unwrap());
-        let Some([double, single]) = differences(&format!("{}{}", &text[..start], &text[end..])) else { return };
-        println!("surface alone {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
-        assert!(double < 1e-9, "{dims:?}: {double:e}");
+        agrees(&format!("surface alone {dims:?} {kind}"), &format!("{}{}", &text[..start], &text[end..]));
     }
 }
 
@@ -156,9 +152,7 @@ fn cut_surfaces() {
         let alone =
             format!("{}{}", &text[..text.find("[transfer]").unwrap()], &text[text.find("[picture]").unwrap()..]);
         for text in [text, alone] {
-            let Some([double, single]) = differences(&text) else { return };
-            println!("cut surface, high outside {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
-            assert!(double < 1e-9, "{dims:?}: {double:e}");
+            agrees(&format!("cut surface, high outside {dims:?} {kind}"), &text);
         }
     }
 }
@@ -175,9 +169,7 @@ fn curvature_along_the_ray_at_surfaces() {
             let alone =
                 format!("{}{}", &text[..text.find("[transfer]").unwrap()], &text[text.find("[picture]").unwrap()..]);
             for text in [text, alone] {
-                let Some([double, single]) = differences(&text) else { return };
-                println!("κ at surfaces {dims:?} {kind}: f64 {double:.1e}, f32 {single:.1e}");
-                assert!(double < 1e-9, "{dims:?}: {double:e}");
+                agrees(&format!("κ at surfaces {dims:?} {kind}"), &text);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Lines inside the volume, at their depths.
 
-use crate::double::{differences_among, load};
+use crate::double::{agrees, agrees_among, load};
 use crate::formulas::random;
 use crate::gpu;
 use drypoint::drawing::Drawing;
@@ -72,17 +72,14 @@ fn lines_lie_at_their_depths() {
         ("lines, coverage", scene(&format!("samples = 1\n{covering}"), object)),
         ("lines, contours", in_styles(scene("samples = 1", styles))),
     ] {
-        let Some([double, single]) = differences_among(&text, lines) else { return };
-        println!("{name}: f64 {double:.1e}, f32 {single:.1e}");
-        assert!(double < 1e-9, "{name}: {double:e}");
+        agrees_among(name, &text, lines);
     }
 }
 
 /// A scene that can have lines, and whose frame has none.
 #[test]
 fn a_frame_may_have_no_line() {
-    let Some([double, _]) = differences_among(&scene("samples = 1", "[shading]\n"), |_| None) else { return };
-    assert!(double < 1e-9, "{double:e}");
+    agrees("no line", &scene("samples = 1", "[shading]\n"));
 }
 
 /// Strokes of a scene inside its volume, from the camera of each frame.

@@ -1,6 +1,6 @@
 //! Opaque meshes on the card, as the reference draws them ([VS-12]).
 
-use crate::double::{differences, differences_among, follows_the_camera, load};
+use crate::double::{agrees, agrees_among, follows_the_camera, load};
 use crate::gpu;
 use crate::lines::lines;
 pub(crate) use crate::mesh_scenes::{LAYERS, Meshes, scene};
@@ -51,9 +51,7 @@ fn meshes_are_drawn() {
         ("a surface alone, beside an object", alone_beside_an_object(&meshes)),
         ("under halos", scene("", &format!("{halos}{both}{apart}"))),
     ] {
-        let Some([double, single]) = differences(&text) else { return };
-        println!("{name}: f64 {double:.1e}, f32 {single:.1e}");
-        assert!(double < 1e-9, "{name}: {double:e}");
+        agrees(name, &text);
     }
 }
 
@@ -61,9 +59,7 @@ fn meshes_are_drawn() {
 fn lines_end_at_meshes() {
     let meshes = Meshes::new();
     let text = crate::lines::scene("samples = 1", &format!("[shading]\n{}", meshes.both()));
-    let Some([double, single]) = differences_among(&text, lines) else { return };
-    println!("lines: f64 {double:.1e}, f32 {single:.1e}");
-    assert!(double < 1e-9, "{double:e}");
+    agrees_among("lines", &text, lines);
 }
 
 /// The number of rays that leave a closed mesh unmet, with an edited shader. The eye is in the middle, and looks at a corner:

@@ -1,7 +1,7 @@
 //! Objects on the card: selections, ghosts, intersections and cutaways (Bruckner and Gröller 2005), as the reference draws
 //! them.
 
-use crate::double::{difference_in_double, follows_the_camera, load};
+use crate::double::{agrees, follows_the_camera, load};
 use crate::gpu;
 use crate::meshes::Meshes;
 pub(crate) use crate::object_scenes::{Files, MOVED, shells};
@@ -15,9 +15,7 @@ use drypoint::scene::counts::Counts;
 /// Compares scenes: shaders in f64 with the reference.
 fn compare(variants: Vec<(&str, String)>) {
     for (name, scene) in variants {
-        let Some(largest) = difference_in_double(&scene) else { return };
-        println!("{name}: {largest:.1e}");
-        assert!(largest < 1e-9, "{name}: {largest:e}");
+        agrees(name, &scene);
     }
 }
 

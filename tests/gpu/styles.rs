@@ -1,6 +1,6 @@
 //! Style transfer functions (Bruckner and Gröller 2007): shaders in f64 equal the reference to 10⁻⁹.
 
-use crate::double::differences;
+use crate::double::agrees;
 
 /// A torus of a few styles, one of them translucent, in perspective.
 const TORUS: &str = r##"
@@ -47,9 +47,7 @@ pub(crate) fn scene(waves: bool, transfer: &str, tables: &str) -> String {
 fn check(scenes: &[(&str, &str, &str)]) {
     for (name, transfer, tables) in scenes {
         for (volume, waves) in [("torus", false), ("waves", true)] {
-            let Some(found) = differences(&scene(waves, transfer, tables)) else { return };
-            println!("{name}, {volume}: {found:?}");
-            assert!(found[0] < 1e-9, "{name}, {volume}: {found:?}");
+            agrees(&format!("{name}, {volume}"), &scene(waves, transfer, tables));
         }
     }
 }
@@ -120,9 +118,7 @@ fn layers_of_styles() {
                 "samples = 1\n",
                 "samples = 1\nlayers = [\"beauty\", \"normal\", \"curvature.KV\", \"first.curvature.KV\", \"Z\"]\n",
             );
-            let Some(found) = differences(&scene) else { return };
-            println!("{name}, waves {waves}: {found:?}");
-            assert!(found[0] < 1e-9, "{name}: {found:?}");
+            agrees(&format!("{name}, waves {waves}"), &scene);
         }
     }
 }

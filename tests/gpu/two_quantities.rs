@@ -1,6 +1,6 @@
 //! Transfer functions over two quantities ([STF-4]) and labels ([STF-13]): shaders in f64 equal the reference to 10⁻⁹.
 
-use crate::double::differences;
+use crate::double::agrees;
 use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use std::fmt::Write;
@@ -53,12 +53,6 @@ rows = [
     )
 }
 
-fn check(name: &str, scene: &str) {
-    let Some(found) = differences(scene) else { return };
-    println!("{name}: {found:?}");
-    assert!(found[0] < 1e-9, "{name}: {found:?}");
-}
-
 const CUT: &str = "[contours]\n[[clip]]\npoint = [20, 18, 16]\nnormal = [1, 0.7, 0.4]\nspace = \"index\"\n";
 
 #[test]
@@ -73,7 +67,7 @@ fn gradients_and_curvatures() {
         ("a cut", "\"kv\"", styles([0.0, 0.1, 0.3]), CUT),
         ("mip-maps", "\"kv\"", styles([0.02, 0.1, 0.3]), "[style_mipmaps]\n"),
     ] {
-        check(name, &torus("", &format!("over = [\"value\", {over}]\n{transfer}"), tables));
+        agrees(name, &torus("", &format!("over = [\"value\", {over}]\n{transfer}"), tables));
     }
 }
 
@@ -85,24 +79,24 @@ rows = [
   { at = 0.1, nodes = [{ at = 0.4, style = \"wax\", opacity = 0 }, { at = 0.6, style = \"glass\", opacity = 0.4 }] },
   { at = 0.8, nodes = [{ at = 0.5, style = \"bone\", opacity = 0.3 }] },
 ]";
-    check("|g|", &torus("", &format!("over = [\"value\", \"gradient-magnitude\"]\n{rows}"), ""));
+    agrees("|g|", &torus("", &format!("over = [\"value\", \"gradient-magnitude\"]\n{rows}"), ""));
 }
 
 #[test]
 fn distances_to_points() {
     let rows = styles([4.0, 11.0, 17.0]);
     let over = "over = [\"value\", { distance = [20.5, 9.25, 14.75] }]";
-    check("a point", &torus("", &format!("{over}\n{rows}"), ""));
+    agrees("a point", &torus("", &format!("{over}\n{rows}"), ""));
     // From row to row the value; along a row the distance.
     let rows = "rows = [
   { at = 110, nodes = [{ at = 3, style = \"wax\", opacity = 0 }, { at = 9, style = \"glass\", opacity = 0.4 }] },
   { at = 130, nodes = [{ at = 6, style = \"bone\", opacity = 0.6 }] },
 ]";
     let over = "over = [{ distance = [20.5, 9.25, 14.75] }, \"value\"]";
-    check("values from row to row", &torus("", &format!("{over}\n{rows}"), ""));
+    agrees("values from row to row", &torus("", &format!("{over}\n{rows}"), ""));
     let over = "over = [{ distance = [20.5, 9.25, 14.75] }, { distance = [3.5, 20.25, 12.75] }]";
     let rows = rows.replace("at = 110", "at = 4").replace("at = 130", "at = 15");
-    check("two points", &torus("", &format!("{over}\n{rows}"), ""));
+    agrees("two points", &torus("", &format!("{over}\n{rows}"), ""));
 }
 
 /// Ids in blocks on a grid, as a file; ids up to `most`.
@@ -151,9 +145,9 @@ fn labels_of_samples() {
             [("styles", styles([1.0, 2.0, f64::from(most)])), ("colours", colors([1.0, 5.0, f64::from(most)]))]
         {
             let transfer = format!("over = [\"value\", \"label\"]\n{rows}");
-            check(&format!("{name}, {kind}"), &torus(&volume, &transfer, ""));
+            agrees(&format!("{name}, {kind}"), &torus(&volume, &transfer, ""));
         }
-        check(&format!("{name}, along rows"), &torus(&volume, &format!("over = [\"label\", \"value\"]\n{ALONG}"), ""));
+        agrees(&format!("{name}, along rows"), &torus(&volume, &format!("over = [\"label\", \"value\"]\n{ALONG}"), ""));
     }
 }
 
@@ -166,7 +160,7 @@ fn distances_to_labels() {
         ("a label", "[\"value\", { distance_to_label = 9 }]", styles([0.3, 2.5, 4.0])),
         ("two labels", "[{ distance_to_label = 2 }, { distance_to_label = 9 }]", LOW.into()),
     ] {
-        check(name, &torus(&volume, &format!("over = {over}\n{rows}"), ""));
+        agrees(name, &torus(&volume, &format!("over = {over}\n{rows}"), ""));
     }
 }
 
@@ -186,12 +180,12 @@ fn further_volumes() {
     for (name, grid) in [("same", &same), ("other", &other), ("flat", &flat)] {
         let path = labels(&format!("further-{name}"), grid, "int16", 120);
         let over = format!("over = [\"value\", {{ volume = {path:?} }}]");
-        check(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 60.0])), ""));
+        agrees(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 60.0])), ""));
     }
     let paths = ["same", "other"]
         .map(|name| labels(&format!("further-{name}"), if name == "same" { &same } else { &other }, "int16", 120));
     let over = format!("over = [{{ volume = {:?} }}, {{ volume = {:?} }}]", paths[0], paths[1]);
-    check("two volumes", &torus("", &format!("{over}\n{LOW}"), ""));
+    agrees("two volumes", &torus("", &format!("{over}\n{LOW}"), ""));
 }
 
 /// Numbers on a grid as a file, some of which are not numbers, from one of the first 53 on.
@@ -224,8 +218,8 @@ fn further_volumes_with_holes() {
     let [a, b] = [("same", 7, &same), ("other", 20, &other)].map(|(name, first, grid)| holes(name, first, grid));
     for (name, path) in [("holes, same grid", &a), ("holes, other grid", &b)] {
         let over = format!("over = [\"value\", {{ volume = {path:?} }}]");
-        check(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 12.0])), ""));
+        agrees(name, &torus("", &format!("{over}\n{}", styles([1.5, 4.0, 12.0])), ""));
     }
     let over = format!("over = [{{ volume = {a:?} }}, {{ volume = {b:?} }}]");
-    check("two volumes with holes", &torus("", &format!("{over}\n{LOW}"), ""));
+    agrees("two volumes with holes", &torus("", &format!("{over}\n{LOW}"), ""));
 }

@@ -38,12 +38,12 @@ impl RayPasses {
     pub(crate) fn new(
         gpu: &Gpu,
         (shot, grid): (&Shot, &Grid),
-        text: &str,
+        module: &wgpu::ShaderModule,
         data: &wgpu::BindGroupLayout,
         layers: &[LayerKind],
         further: &[u32],
     ) -> Result<Self, GpuError> {
-        let pass = |entry_point, reads: &[u32]| Pass::new(gpu, text, entry_point, &[reads, further].concat(), data);
+        let pass = |entry_point, reads: &[u32]| Pass::new(gpu, module, entry_point, &[reads, further].concat(), data);
         let mut passes = Self {
             draw: pass("draw", &[0])?,
             refinement: shot.refine_above.map(|_| pass("refine", &[0, 2])).transpose()?,
@@ -137,7 +137,7 @@ impl Pass {
     /// An entry point that writes the picture and reads lists of group 0, by their bindings.
     fn new(
         gpu: &Gpu,
-        text: &str,
+        module: &wgpu::ShaderModule,
         entry_point: &'static str,
         reads: &[u32],
         data: &wgpu::BindGroupLayout,
@@ -146,6 +146,6 @@ impl Pass {
         let entries: Vec<_> = lists.chain([list_entry(1, false)]).collect();
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(entry_point), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
-        Ok(Self { pipeline: pipeline(gpu, text.to_owned(), entry_point, &[&layout, data])?, layout })
+        Ok(Self { pipeline: pipeline(gpu, module, entry_point, &[&layout, data])?, layout })
     }
 }

@@ -1,6 +1,6 @@
 //! The finished picture in a viewer's texture.
 
-use crate::buffers::{entry, list_entry, pipeline};
+use crate::buffers::{entry, list_entry, pipeline, shader_module};
 use crate::module::{Module, module};
 use crate::{Gpu, GpuError, Precision, number};
 use drypoint_scene::picture::LayerKind;
@@ -36,7 +36,7 @@ impl Presentation {
         let entries = [list_entry(0, true), target, list_entry(2, true)];
         let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("present"), entries: &entries };
         let layout = gpu.attempt("the shader", || gpu.device.create_bind_group_layout(&descriptor))?;
-        let pipeline = pipeline(gpu, text, "present", &[&layout])?;
+        let pipeline = pipeline(gpu, &shader_module(gpu, &text)?, "present", &[&layout])?;
         Ok(Self { pipeline, layout })
     }
 

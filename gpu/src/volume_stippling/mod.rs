@@ -2,7 +2,7 @@
 //! the test for points that an iso-surface hides ([STIP-15]).
 
 use crate::block::ParamBlock;
-use crate::buffers::{buffer, entry, list_entry, pipeline, read};
+use crate::buffers::{buffer, entry, list_entry, pipeline, read, shader_module};
 use crate::field::Scales;
 use crate::module::module;
 use crate::ray::RAY;
@@ -83,7 +83,7 @@ impl HiddenPoints {
             gpu.device
                 .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("test"), entries: &entries })
         })?;
-        let pipeline = pipeline(gpu, text, "test", &[&layout, &data_layout])?;
+        let pipeline = pipeline(gpu, &shader_module(gpu, &text)?, "test", &[&layout, &data_layout])?;
         let params = buffer(gpu, "the parameters", &shader.block.bytes(precision), wgpu::BufferUsages::STORAGE)?;
         let grid = hiding.volume.grid().clone();
         Ok(Self { gpu: gpu.clone(), precision, shader, pipeline, layout, data, params, grid })

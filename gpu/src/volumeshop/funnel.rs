@@ -123,7 +123,7 @@ impl FunnelPasses {
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
-        text: &str,
+        module: &wgpu::ShaderModule,
         data: &wgpu::BindGroupLayout,
         precision: Precision,
     ) -> Result<Option<Self>, GpuError> {
@@ -162,7 +162,7 @@ impl FunnelPasses {
             let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("funnels"), entries: &entries };
             gpu.device.create_bind_group_layout(&descriptor)
         })?;
-        let smooth = |entry_point| pipeline(gpu, text.to_owned(), entry_point, &[&layout]);
+        let smooth = |entry_point| pipeline(gpu, module, entry_point, &[&layout]);
         let smooth = [smooth("dilate")?, smooth("smooth_rows")?, smooth("map_funnels")?];
         let group = gpu.attempt("the funnels", || {
             let buffers = lists.iter().chain(&maps);
@@ -173,7 +173,7 @@ impl FunnelPasses {
         let ([.., depths], [.., maps]) = (lists, maps);
         let [across, down] = most.map(|n| (n as u32).div_ceil(GROUP));
         Ok(Some(Self {
-            find: pipeline(gpu, text.to_owned(), "find_depths", &[&find_layout, data])?,
+            find: pipeline(gpu, module, "find_depths", &[&find_layout, data])?,
             find_layout,
             smooth,
             group,

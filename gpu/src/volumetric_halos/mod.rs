@@ -130,8 +130,6 @@ fn add_images(shader: &mut Shader, shot: &Shot, precision: Precision) {
     shader.add(&[if ends_rays(shot) { module!("end_at_surface") } else { module!("no_end") }]);
     let emits = list.iter().any(|halo| halo.kind == HaloKind::Emissive);
     shader.constant("EMISSIVE", Constant::Bool(emits));
-    shader.constant("IN_MEMORY", Constant::Bool(true));
-    shader.constant("FROM_SEEDS", Constant::Bool(true));
     shader.constant("TILE", Constant::Int(TILE as i64));
     shader.constant("TILE_NUMBERS", Constant::Int((TILE_BYTES as u64 / precision.size()) as i64));
     shader.add(&[match list.iter().any(|halo| halo.spread.median) {

@@ -2,7 +2,7 @@
 
 use super::groups::{PlaneGroup, SeedBoxes, groups, reached, seed_planes};
 use super::stages::{SOURCE, Stages, TILE, TILE_BYTES, dispatches};
-use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline, pipeline_with};
+use crate::buffers::{buffer, check_bytes, entry, list_entry, pipeline};
 use crate::canvas::Canvas;
 use crate::place::anchor;
 use crate::shader::Shader;
@@ -104,8 +104,7 @@ pub(crate) struct HaloPlanes {
     anchor: i64,
     start: wgpu::ComputePipeline,
     visit: wgpu::ComputePipeline,
-    /// Stages of each [kind](Stages::kind).
-    spread: [[wgpu::ComputePipeline; 2]; 2],
+    spread: wgpu::ComputePipeline,
     finish: wgpu::ComputePipeline,
     params_layout: wgpu::BindGroupLayout,
     state_layout: wgpu::BindGroupLayout,
@@ -128,14 +127,14 @@ struct Images {
 }
 
 impl HaloPlanes {
-    /// Makes the images and the passes of a shot. `text` is the whole shader. `further` is a further binding that rays of the
-    /// picture read.
+    /// Makes the images and the passes of a shot. `further` is a further binding that rays of the picture
+    /// read.
     pub(crate) fn new(
         gpu: &Gpu,
         shot: &Shot,
         (grid, extent): (&Grid, Extent),
         further: Option<u32>,
-        (shader, text): (&Shader, &str),
+        (shader, module): (&Shader, &wgpu::ShaderModule),
         data_layout: &wgpu::BindGroupLayout,
         precision: Precision,
     ) -> Result<Self, GpuError> {
@@ -162,11 +161,7 @@ impl HaloPlanes {
         let of_state = (1..=7).map(|binding| list_entry(binding, binding == 7));
         let state_layout = layout("rays", &std::iter::once(group).chain(of_state).collect::<Vec<_>>())?;
         let groups = [&params_layout, data_layout, &state_layout, &image_layout];
-        let pass = |entry_point| pipeline(gpu, text.to_owned(), entry_point, &groups[..3]);
-        let spread = |in_memory: f64, from_seeds: f64| {
-            let constants = [("IN_MEMORY", in_memory), ("FROM_SEEDS", from_seeds)];
-            pipeline_with(gpu, text.to_owned(), "halo_spread", &groups, &constants)
-        };
+        let pass = |entry_point| pipeline(gpu, module, entry_point, &groups[..3]);
         let watched = (0..halos.len()).map(|i| shot.layers.contains(&LayerKind::Halo(i))).collect();
         let mut planes = Self {
             precision,
@@ -180,7 +175,7 @@ impl HaloPlanes {
             anchor: 0,
             start: pass("halo_start")?,
             visit: pass("halo_planes")?,
-            spread: [[spread(0.0, 0.0)?, spread(0.0, 1.0)?], [spread(1.0, 0.0)?, spread(1.0, 1.0)?]],
+            spread: pipeline(gpu, module, "halo_spread", &groups)?,
             finish: pass("halo_pixels")?,
             params_layout,
             state_layout,
@@ -307,9 +302,7 @@ impl HaloPlanes {
         for stage in 0..self.stages.len() {
             bind(run, stage);
             run.set_bind_group(3, [source, first].get(stage).copied().unwrap_or(&turns[stage % 2]), &[]);
-            let [in_memory, from_seeds] = self.stages[stage].kind().map(usize::from);
-            let pipeline = &self.spread[in_memory][from_seeds];
-            gpu.dispatch(run, pipeline, [across, down, self.halos.len() as u32]);
+            gpu.dispatch(run, &self.spread, [across, down, self.halos.len() as u32]);
         }
     }
 

@@ -61,30 +61,50 @@ fn image_at(at: vec2<i32>, halo: i32) -> real {
     return image_before[image_place(at, halo)];
 }
 
-// H of the pass before. A pass that is alone in its dispatch reads the buffer, and another one the memory of the workgroup.
+// Whether H_0 is the first stage of a dispatch.
+fn begins_with_seeds() -> bool {
+    return plane_group.from_stage == SOURCE_STAGE;
+}
+
+// Whether a pass is alone in its dispatch.
+fn is_alone() -> bool {
+    return plane_group.from_stage == plane_group.to_stage;
+}
+
+// H of the pass before. A pass alone reads the buffer, and another one the memory of the workgroup.
 fn before_at(square: Square, at: vec2<i32>) -> real {
-    if (IN_MEMORY) {
-        return square_at(square, at);
+    if (is_alone()) {
+        return image_at(at, square.halo);
     }
-    return image_at(at, square.halo);
+    return square_at(square, at);
+}
+
+// The weights of the nearer and of the farther neighbour of a tap.
+fn neighbour_weight(taps: HaloTaps, farther: i32) -> real {
+    return select(1.0 - taps.f, taps.f, farther == 1);
+}
+
+// The neighbours of a tap beside the nearer one: none if it lies at a pixel.
+fn farther_neighbours(taps: HaloTaps) -> i32 {
+    return select(0, 1, taps.f > 0.0);
 }
 
 // Weights [1 2 1]/4 in y.
 fn column_of(square: Square, x: i32, y: i32, taps: HaloTaps) -> real {
-    var sum = before_at(square, vec2(x, y - taps.j)) + before_at(square, vec2(x, y + taps.j));
-    if (taps.f > 0.0) {
-        let far = before_at(square, vec2(x, y - taps.j - 1)) + before_at(square, vec2(x, y + taps.j + 1));
-        sum = (1.0 - taps.f) * sum + taps.f * far;
+    var sum = real(0.0);
+    for (var k = 0; k <= farther_neighbours(taps); k++) {
+        let t = taps.j + k;
+        sum += neighbour_weight(taps, k) * (before_at(square, vec2(x, y - t)) + before_at(square, vec2(x, y + t)));
     }
     return 0.25 * (sum + 2.0 * before_at(square, vec2(x, y)));
 }
 
 // F: weights [1 2 1; 2 4 2; 1 2 1]/16, first in y, then in x.
 fn filtered(square: Square, x: i32, y: i32, taps: HaloTaps) -> real {
-    var sum = column_of(square, x - taps.j, y, taps) + column_of(square, x + taps.j, y, taps);
-    if (taps.f > 0.0) {
-        let far = column_of(square, x - taps.j - 1, y, taps) + column_of(square, x + taps.j + 1, y, taps);
-        sum = (1.0 - taps.f) * sum + taps.f * far;
+    var sum = real(0.0);
+    for (var k = 0; k <= farther_neighbours(taps); k++) {
+        let t = taps.j + k;
+        sum += neighbour_weight(taps, k) * (column_of(square, x - t, y, taps) + column_of(square, x + t, y, taps));
     }
     return 0.25 * (sum + 2.0 * column_of(square, x, y, taps));
 }
@@ -101,10 +121,13 @@ fn passed(source: Square, before: Square, at: vec2<i32>, exponent: i32) -> real 
         return 0.0;
     }
     let f = filtered(before, at.x, at.y, taps_of(before.halo, exponent));
-    if (FROM_SEEDS) {
-        return spread(f, square_at(source, at), halos[before.halo].delta);
+    var h0: real;
+    if (begins_with_seeds()) {
+        h0 = square_at(source, at);
+    } else {
+        h0 = source_image[image_place(at, before.halo)];
     }
-    return spread(f, source_image[image_place(at, before.halo)], halos[before.halo].delta);
+    return spread(f, h0, halos[before.halo].delta);
 }
 
 // The square about a tile on which a dispatch needs the image before a pass. It lies at `first` in the memory of the workgroup.
@@ -112,7 +135,7 @@ fn square_before(exponent: i32, halo: i32, tile: vec2<i32>, first: i32) -> Squar
     var margin = 0;
     for (var later = plane_group.to_stage; later <= exponent; later++) {
         let taps = taps_of(halo, later);
-        margin += taps.j + select(0, 1, taps.f > 0.0);
+        margin += taps.j + farther_neighbours(taps);
     }
     return Square(first, TILE + 2 * margin, tile * TILE - margin, halo);
 }
@@ -122,58 +145,52 @@ fn pixel_of(square: Square, i: i32) -> vec2<i32> {
     return square.corner + vec2(i % square.side, i / square.side);
 }
 
-// The last of some passes at a pixel of a tile, after the passes before it on squares about the tile. All invocations of a
-// workgroup call it together.
-fn spread_in_memory(first_pass: i32, halo: i32, tile: vec2<i32>, own: i32) -> real {
-    let source = square_before(first_pass, halo, tile, 0);
-    let seeds = seed_layer(halo, halo_group(halo));
-    for (var i = own; i < source.side * source.side; i += TILE * TILE) {
-        let at = pixel_of(source, i);
-        if (FROM_SEEDS) {
-            tile_numbers[i] = source_of(at, halo, seeds);
-        } else {
-            tile_numbers[i] = image_at(at, halo);
-        }
-    }
-    workgroupBarrier();
-    var before = source;
-    var free = source.side * source.side;
-    for (var exponent = first_pass; exponent > plane_group.to_stage; exponent--) {
-        let after = square_before(exponent - 1, halo, tile, free);
-        for (var i = own; i < after.side * after.side; i += TILE * TILE) {
-            tile_numbers[free + i] = passed(source, before, pixel_of(after, i), exponent);
-        }
-        workgroupBarrier();
-        // The image before is not needed any more, unless it is H_0.
-        free = select(before.first, free + after.side * after.side, FROM_SEEDS && exponent == first_pass);
-        before = after;
-    }
-    return passed(source, before, pixel_of_tile(tile, own), plane_group.to_stage);
-}
-
 fn pixel_of_tile(tile: vec2<i32>, own: i32) -> vec2<i32> {
     return tile * TILE + vec2(own % TILE, own / TILE);
 }
 
-// The last stage of a dispatch at a pixel of a tile. FROM_SEEDS tells whether H_0 is the first one, and IN_MEMORY whether several
-// stages follow each other.
+// The last stage of a dispatch at a pixel of a tile, after the stages before it on squares about the tile. All invocations of a
+// workgroup call it together.
 fn spread_tile(halo: i32, tile: vec2<i32>, own: i32) -> real {
-    let at = pixel_of_tile(tile, own);
-    // A halo with fewer passes begins later.
+    // A halo with fewer passes begins later: until then H is H_0.
     let first_pass = min(plane_group.from_stage, passes_of(halo) - 1);
-    if (first_pass >= plane_group.to_stage) {
-        if (IN_MEMORY) {
-            return spread_in_memory(first_pass, halo, tile, own);
+    let passes = first_pass - plane_group.to_stage + 1;
+    let source = square_before(first_pass, halo, tile, 0);
+    if (passes <= 0 || !is_alone()) {
+        let seeds = seed_layer(halo, halo_group(halo));
+        for (var i = own; i < source.side * source.side; i += TILE * TILE) {
+            let at = pixel_of(source, i);
+            if (begins_with_seeds()) {
+                tile_numbers[i] = source_of(at, halo, seeds);
+            } else {
+                tile_numbers[i] = image_at(at, halo);
+            }
         }
-        return passed(Square(), Square(0, 0, vec2(0), halo), at, first_pass);
     }
-    if (FROM_SEEDS) {
-        return source_of(at, halo, seed_layer(halo, halo_group(halo)));
+    if (passes <= 0) {
+        // The square is the tile.
+        return tile_numbers[own];
     }
-    if (!is_in_image(at)) {
-        return 0.0;
+    workgroupBarrier();
+    var before = source;
+    var free = source.side * source.side;
+    var result: real;
+    for (var exponent = first_pass; exponent >= plane_group.to_stage; exponent--) {
+        // After the last pass the square is the tile, whose pixels need no memory.
+        let after = square_before(exponent - 1, halo, tile, free);
+        for (var i = own; i < after.side * after.side; i += TILE * TILE) {
+            result = passed(source, before, pixel_of(after, i), exponent);
+            if (exponent > plane_group.to_stage) {
+                tile_numbers[free + i] = result;
+            }
+        }
+        workgroupBarrier();
+        // The image before is not needed any more, unless it is H_0.
+        let keeps = begins_with_seeds() && exponent == first_pass;
+        free = select(before.first, free + after.side * after.side, keeps);
+        before = after;
     }
-    return source_image[image_place(at, halo)];
+    return result;
 }
 
 // Stages of spreading that follow each other. After the last one values below the floor are 0, and O = max(O, H).

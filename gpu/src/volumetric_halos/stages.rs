@@ -17,12 +17,6 @@ pub(super) struct Stages {
 }
 
 impl Stages {
-    /// Whether images between the stages are in the memory of workgroups, since several stages follow each other, and whether
-    /// H₀ is the first one.
-    pub(super) fn kind(self) -> [bool; 2] {
-        [self.from != self.to, self.from == SOURCE]
-    }
-
     /// The pixels that stages of a halo keep in the memory of a workgroup.
     fn pixels(self, reaches: &[usize]) -> usize {
         let passes = reaches.get(self.to as usize..reaches.len().min(self.from as usize + 1)).unwrap_or_default();

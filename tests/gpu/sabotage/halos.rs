@@ -25,7 +25,12 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     ),
     ("measured_plane != sample.k", "measured_plane == -NO_PLANE", "", "[[halo]]\nevery = 4\n"),
     // Tiles: out of reach, images that keep what was there, rays that are open.
-    ("let other = tile - plane_group.tile_reach", "let other = tile", "", "[[halo]]\n"),
+    (
+        "let other = tile - plane_group.tile_reach",
+        "let other = tile",
+        "",
+        "[[halo]]\n[sampling]\nstep = \"0.5 voxel\"\n",
+    ),
     (
         "i32(state.seeded) < planes - 1",
         "i32(state.seeded) < planes",
@@ -37,7 +42,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     ("seed_layer(halo, planes - 1))] = 0.0;", "seed_layer(halo, planes - 1))] *= 1.0;", "", "[[halo]]\n"),
     ("max(occlusion_image[place], h)", "h", "", "[[halo]]\n"),
     // Images in the memory of workgroups: too narrow a margin, a pass over one that is still read.
-    ("margin += taps.j + select(0, 1, taps.f > 0.0);", "margin = taps.j;", "", "[[halo]]\n"),
+    ("margin += taps.j + farther_neighbours(taps);", "margin = taps.j;", "", "[[halo]]\n"),
     (
         "let after = square_before(exponent - 1, halo, tile, free);",
         "let after = square_before(exponent - 1, halo, tile, 0);",
@@ -109,8 +114,8 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     ("return 0.25 * (sum + 2.0 * column_of(square, x, y, taps));", "return 0.5 * sum;", "", "[[halo]]\n"),
     ("SOURCE_STAGE + 1) + 2 * exponent + 1", "SOURCE_STAGE + 1) + 1", "", "[[halo]]\n"),
     (
-        "let far = before_at(square, vec2(x, y - taps.j - 1))",
-        "let far = before_at(square, vec2(x, y - taps.j))",
+        "return select(1.0 - taps.f, taps.f, farther == 1);",
+        "return 1.0 - taps.f;",
         "",
         "[[halo]]\nspread.reach = \"31 %\"\n",
     ),
