@@ -112,6 +112,7 @@ impl Failures {
     }
 
     /// Changes each failure.
+    #[cfg(feature = "command")]
     pub(crate) fn map(self, change: impl Fn(Failure) -> Failure) -> Self {
         Self(self.0.into_iter().map(change).collect())
     }

@@ -95,10 +95,9 @@ impl Gpu {
         let adapter = pollster::block_on(instance.request_adapter(&options)).map_err(|_| GpuError::NoAdapter)?;
         let info = adapter.get_info();
         let descriptor = wgpu::DeviceDescriptor {
-            label: Some("drypoint"),
             required_features: adapter.features() & features,
             required_limits: limits(adapter.limits()),
-            ..Default::default()
+            ..Self::descriptor(&adapter)
         };
         let request = pollster::block_on(adapter.request_device(&descriptor));
         let (device, queue) =
@@ -106,8 +105,19 @@ impl Gpu {
         Ok(Self::of(info, device, queue))
     }
 
+    /// Returns the description of the device that [`Gpu::new`] opens on an adapter: the [`WANTED`] features that it has,
+    /// and all of its limits. A program opens its own device with it and shares the device by [`Gpu::of`].
+    pub fn descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+        wgpu::DeviceDescriptor {
+            label: Some("drypoint"),
+            required_features: adapter.features() & WANTED,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }
+    }
+
     /// The adapter of a device that another program, such as a viewer, opened. [`WANTED`] features are used if the
-    /// device has them. The callback for a lost device is replaced.
+    /// device has them. The callback for a lost device is replaced. See [`Gpu::descriptor`].
     pub fn of(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
         let lost = Arc::new(Mutex::new(None));
         let heard = Arc::clone(&lost);

@@ -51,6 +51,17 @@ pub(super) fn load_volume(source: &dyn Source, table: &VolumeTable, given: &Give
     }
 }
 
+impl super::Job {
+    /// Reads or generates the volume of a scene, for [`Job::with_volume_for`](super::Job::with_volume_for). A program
+    /// that edits a scene keeps it while `[volume]` stays the same.
+    ///
+    /// # Errors
+    /// A volume that cannot be read.
+    pub fn read_volume(scene: &Scene, source: &dyn Source) -> Result<Volume, Failure> {
+        load_volume(source, &scene.volume, &scene.given)
+    }
+}
+
 /// Reads the further volumes of the transfer function. Errors go to `failures`.
 pub(super) fn further(source: &dyn Source, scene: &Scene, failures: &mut Vec<Failure>) -> [Option<Volume>; 2] {
     let axes = scene.transfer.as_ref().map_or(&[][..], |transfer| transfer.over.axes());

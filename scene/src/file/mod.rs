@@ -90,6 +90,17 @@ pub fn load(path: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
     load_over(path, None, overrides)
 }
 
+/// Reads a scene from a text that stands in place of the text of a file, such as one that is being edited. Otherwise like
+/// [`load`].
+///
+/// # Errors
+/// Every fault of the text, and every file or folder that the scene names and that is not there.
+pub fn load_text(text: &str, path: &Path, overrides: &Overrides) -> Result<Scene, Faults> {
+    let mut check = Check::new(path);
+    let scene = read(text, None, overrides, &mut check);
+    found(scene, check)
+}
+
 /// Reads a scene file for another volume than its own, or a template, which has none ([VS-11]). The volume's file takes
 /// the place of `volume.file` or `volume.phantom`. If the scene has one of them, its `raw`, `box` and `labels` go too;
 /// every other key stays.
@@ -102,7 +113,12 @@ pub fn load_for(path: &Path, volume: &Path, overrides: &Overrides) -> Result<Sce
 
 fn load_over(path: &Path, volume: Option<&Path>, overrides: &Overrides) -> Result<Scene, Faults> {
     let mut check = Check::new(path);
-    let mut scene = text(path, &mut check).and_then(|text| read(&text, volume, overrides, &mut check));
+    let scene = text(path, &mut check).and_then(|text| read(&text, volume, overrides, &mut check));
+    found(scene, check)
+}
+
+/// Looks for the files of a scene that was read, and returns it, or the faults.
+fn found(mut scene: Option<Scene>, mut check: Check) -> Result<Scene, Faults> {
     if let Some(scene) = &mut scene {
         find::files(scene, &mut check, &data_folders());
     }

@@ -1,0 +1,35 @@
+//! The window of Drypoint, in which a volume is turned and its scene file edited.
+//!
+//! | file | |
+//! |---|---|
+//! | [`document`] | the scene file: its text, changes by key, undo, saving |
+//! | [`session`] | the document with its scene, its volume, its frame; what panels share |
+//! | [`frames`] | the thread that draws |
+//! | [`camera`] | moves of the camera in closed form |
+//! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
+//! | [`commands`] | the list that menus, keys and the palette share |
+//! | [`export`] | the reference's picture, in the background |
+
+pub mod app;
+pub mod camera;
+pub mod canvas;
+pub mod commands;
+mod dialogs;
+pub mod document;
+pub mod edit;
+pub mod export;
+pub mod frames;
+pub mod gallery;
+pub mod history;
+pub mod key;
+mod mailbox;
+pub mod open;
+mod palette;
+pub mod panels;
+pub mod picture;
+mod present;
+pub mod schema;
+pub mod screen;
+pub mod session;
+pub mod state;
+pub mod widgets;

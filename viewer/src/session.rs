@@ -1,0 +1,170 @@
+//! The state that all panels share: the document, what was read from it, and the frame that shows it.
+
+use crate::camera::Pose;
+use crate::document::{Document, Edit};
+use crate::frames::{Answer, Request, VolumeData, Worker};
+use crate::key::KeyPath;
+use crate::screen::Screen;
+use drypoint::scene::tables::Scene;
+use drypoint::{Failure, Failures};
+use eframe::egui::{self, TextureId};
+use std::sync::Arc;
+use toml_edit::Value;
+
+/// The frame in the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shown {
+    /// The texture.
+    pub texture: TextureId,
+    /// Width and height in pixels.
+    pub size: [usize; 2],
+    /// Whether an exact frame follows.
+    pub is_coarse: bool,
+    /// Seconds of drawing.
+    pub seconds: f64,
+    /// The serial number of the scene that it shows ([`Session::serial`]).
+    pub serial: u64,
+}
+
+/// A document with its scene, volume and frame.
+pub struct Session {
+    /// The document.
+    pub document: Document,
+    /// The scene of the text when it was last without faults.
+    pub scene: Option<Arc<Scene>>,
+    /// The scene that is drawn, with nodes and iso-values that were found in the data.
+    pub prepared: Option<Arc<Scene>>,
+    /// The volume that is drawn.
+    pub data: Option<Arc<VolumeData>>,
+    /// The faults of the text, or of drawing it.
+    pub failures: Option<Failures>,
+    /// Warnings of the scene that is drawn.
+    pub warnings: Vec<String>,
+    /// The frame; the last good one if the scene has a fault.
+    pub shown: Option<Shown>,
+    /// Most pixels of the longer side of a frame.
+    pub longest: usize,
+    /// A sentence about the last command, for the status line.
+    pub notice: String,
+    screen: Screen,
+    worker: Worker,
+    serial: u64,
+    /// The document's revision that was read, and the size that was asked for.
+    asked: Option<(u64, usize)>,
+}
+
+impl Session {
+    /// A session of a document, whose frames a thread draws.
+    pub fn new(document: Document, screen: Screen, worker: Worker) -> Self {
+        Self {
+            document,
+            scene: None,
+            prepared: None,
+            data: None,
+            failures: None,
+            warnings: Vec::new(),
+            shown: None,
+            longest: 2048,
+            notice: String::new(),
+            screen,
+            worker,
+            serial: 0,
+            asked: None,
+        }
+    }
+
+    /// Takes another document.
+    pub fn take(&mut self, document: Document) {
+        self.document = document;
+        self.asked = None;
+        (self.scene, self.prepared, self.failures) = (None, None, None);
+        self.notice.clear();
+    }
+
+    /// Reads the document if it has changed, asks for its frames, and takes the answers.
+    pub fn update(&mut self, ctx: &egui::Context) {
+        let state = (self.document.revision(), self.longest);
+        if self.asked != Some(state) {
+            self.asked = Some(state);
+            self.serial += 1;
+            match self.document.scene() {
+                Ok(scene) => {
+                    self.worker.ask(Request { revision: self.serial, scene: scene.clone(), longest: self.longest });
+                    self.scene = Some(Arc::new(scene));
+                    self.failures = None;
+                }
+                Err(failures) => self.failures = Some(failures),
+            }
+        }
+        let answers: Vec<Answer> = self.worker.answers().collect();
+        for answer in answers {
+            match answer {
+                Answer::Loaded(data) => self.data = Some(data),
+                Answer::Prepared(scene, warnings) => (self.prepared, self.warnings) = (Some(scene), warnings),
+                Answer::Drawn(frame) => {
+                    let (size, is_coarse, seconds, serial) =
+                        (frame.size, frame.is_coarse, frame.seconds, frame.revision);
+                    self.screen.show(ctx, frame);
+                    self.shown =
+                        self.screen.texture().map(|texture| Shown { texture, size, is_coarse, seconds, serial });
+                }
+                // Later faults of the text are newer.
+                Answer::Failed(serial, failures) if serial == self.serial => {
+                    self.failures.get_or_insert(failures);
+                }
+                Answer::Failed(..) => {}
+            }
+        }
+    }
+
+    /// Returns a number that grows with every scene that was read.
+    pub fn serial(&self) -> u64 {
+        self.serial
+    }
+
+    /// Whether the exact frame of the document is in the window.
+    pub fn is_settled(&self) -> bool {
+        let is_asked = self.asked == Some((self.document.revision(), self.longest));
+        let is_exact = self.shown.is_some_and(|shown| shown.serial == self.serial && !shown.is_coarse);
+        is_asked && (is_exact || self.failures.is_some())
+    }
+
+    /// Returns the camera of the document, once its volume is loaded.
+    pub fn pose(&self) -> Option<Pose> {
+        let (scene, data) = (self.scene.as_ref()?, self.data.as_ref()?);
+        Pose::new(&scene.camera, data.volume.grid(), scene.picture.size).ok()
+    }
+
+    /// Moves the camera.
+    pub fn move_camera(&mut self, label: &str, to: impl FnOnce(&Pose) -> Pose) {
+        if let (Some(from), Some(scene)) = (self.pose(), self.scene.clone()) {
+            self.edit(label, to(&from).edits(&scene.camera, &from));
+            // A second move in the same pass of the window starts where this one ends.
+            if let Ok(scene) = self.document.scene() {
+                self.scene = Some(Arc::new(scene));
+            }
+        }
+    }
+
+    /// Gives a key a value. An error goes to the status line.
+    pub fn set(&mut self, key: &KeyPath, value: impl Into<Value>) {
+        self.edit(&key.to_string(), vec![Edit::set(key.clone(), value)]);
+    }
+
+    /// Makes some edits together. An error goes to the status line.
+    pub fn edit(&mut self, label: &str, edits: Vec<Edit>) {
+        if let Err(error) = self.document.apply(label, edits) {
+            self.notice = error.to_string();
+        }
+    }
+
+    /// Puts a failure into the status line.
+    pub fn report(&mut self, failure: &Failure) {
+        self.notice = format!("{}: {}", failure.place, failure.what);
+    }
+
+    /// Returns the pixels of the frame in the window.
+    pub fn image(&self) -> Option<egui::ColorImage> {
+        self.screen.image()
+    }
+}

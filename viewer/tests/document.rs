@@ -1,0 +1,136 @@
+//! Documents: edits keep everything else, and undo restores every byte.
+
+use drypoint_viewer::document::{Document, Edit};
+use drypoint_viewer::key::KeyPath;
+use std::time::{Duration, SystemTime};
+use toml_edit::{InlineTable, Value};
+
+const TEXT: &str = r##"# A ring, for tests.
+drypoint = 1
+
+[volume]
+phantom = { name = "torus", size = 24 }   # small
+
+[transfer]   # one boundary
+kind = "regular"
+nodes = [
+  { at = 100, color = "#804020", opacity = 0 },     # outside
+  # the surface
+  { at = 150, color = "#ffcc88", opacity = 0.9 },
+]
+
+[[clip]]
+normal = [1, 0, 0]
+point = [12, 0, 0]   # the middle
+"##;
+
+fn document() -> Document {
+    Document::untitled(TEXT.into(), "ring.toml".into())
+}
+
+fn key(text: &str) -> KeyPath {
+    text.into()
+}
+
+/// Every edit changes the lines that it names, and no other byte.
+#[test]
+fn edits_keep_comments_and_layout() {
+    let line = "  { at = 120, color = \"#000000\", opacity = 0.5 },";
+    let node =
+        || InlineTable::from_iter([("at", Value::from(120)), ("color", "#000000".into()), ("opacity", 0.5.into())]);
+    let clip =
+        || InlineTable::from_iter([("normal", Value::from_iter([0, 1, 0])), ("point", Value::from_iter([0, 5, 0]))]);
+    let cases: Vec<(Edit, &str, String)> = vec![
+        (Edit::set("volume.phantom.size", 25), "size = 24", "size = 25".into()),
+        (Edit::set("transfer.nodes[1].at", 151.5), "at = 150", "at = 151.5".into()),
+        (Edit::set("transfer.nodes[0].color", "#ffffff"), "#804020", "#ffffff".into()),
+        (Edit::set("clip[0].point", Value::from_iter([11, 0, 0])), "[12, 0, 0]", "[11, 0, 0]".into()),
+        (Edit::set("transfer.unit", "value"), "]\n\n[[clip", "]\nunit = \"value\"\n\n[[clip".into()),
+        (Edit::remove("clip[0]"), "\n[[clip]]\nnormal = [1, 0, 0]\npoint = [12, 0, 0]   # the middle\n", String::new()),
+        (Edit::Insert(key("transfer.nodes"), 1, node()), ",     # outside", format!(",     # outside\n{line}")),
+        (
+            Edit::Insert(key("clip"), 1, clip()),
+            "# the middle\n",
+            "# the middle\n\n[[clip]]\nnormal = [0, 1, 0]\npoint = [0, 5, 0]\n".into(),
+        ),
+    ];
+    for (edit, from, to) in cases {
+        let mut document = document();
+        let expected = TEXT.replacen(from, &to, 1);
+        document.apply("edit", vec![edit.clone()]).unwrap();
+        assert_eq!(document.text(), expected, "{edit:?}");
+        assert!(document.scene().is_ok(), "{edit:?}: {}", document.scene().unwrap_err());
+        assert!(document.is_changed() && document.undo());
+        assert!(document.text() == TEXT && !document.is_changed(), "{edit:?}");
+        assert!(document.redo() && document.text() == expected);
+    }
+}
+
+#[test]
+fn a_bad_value_is_the_commands_error_and_can_be_undone() {
+    let mut document = document();
+    document.set(&key("camera.fov"), 200).unwrap();
+    let failures = document.scene().unwrap_err();
+    let failure = failures.iter().next().unwrap();
+    assert!(failure.place.contains("ring.toml") && failure.place.contains("camera.fov"), "{failure}");
+    assert!(document.undo() && document.scene().is_ok());
+    // A key inside a value, and an item that is not there, change nothing.
+    for wrong in ["transfer.kind.x", "clip[3].point", "transfer.nodes[2]"] {
+        assert!(document.set(&key(wrong), 1).is_err(), "{wrong}");
+        assert_eq!(document.text(), TEXT);
+    }
+}
+
+#[test]
+fn a_drag_is_undone_as_a_whole() {
+    let mut document = document();
+    for at in [151, 152, 153] {
+        document.set(&key("transfer.nodes[1].at"), at).unwrap();
+    }
+    document.seal();
+    document.set(&key("transfer.nodes[1].at"), 160).unwrap();
+    document.undo();
+    assert!(document.text().contains("at = 153"));
+    document.undo();
+    assert_eq!(document.text(), TEXT);
+}
+
+#[test]
+fn a_file_that_another_program_writes_is_read_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ring.toml");
+    std::fs::write(&path, TEXT).unwrap();
+    let mut document = Document::open(&path).unwrap();
+    document.set(&key("camera.fov"), 20).unwrap();
+    document.save().unwrap();
+    let ours = document.text().to_owned();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), ours);
+    assert!(!document.is_changed() && !document.follow_file().unwrap());
+    // Their text is taken, even if it is no TOML, and ours is one step back.
+    for theirs in [TEXT, "drypoint = = 1\n", TEXT] {
+        std::fs::write(&path, theirs).unwrap();
+        let later = SystemTime::now() + Duration::from_secs(document.revision() + 2);
+        std::fs::File::options().write(true).open(&path).unwrap().set_modified(later).unwrap();
+        assert!(document.follow_file().unwrap());
+        assert!(document.text() == theirs && !document.is_changed());
+    }
+    assert!(document.undo() && document.scene().is_err());
+    assert!(document.set(&key("camera.fov"), 20).is_err());
+    assert!(document.undo() && document.undo());
+    assert!(document.text() == ours && document.is_changed());
+}
+
+#[test]
+fn a_scene_that_is_saved_elsewhere_finds_its_volume() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "drypoint = 1\n[volume]\nfile = \"head.nrrd\"\n";
+    let mut document = Document::untitled(text.into(), folder.path().join("head.toml"));
+    std::fs::create_dir(folder.path().join("scenes")).unwrap();
+    document.save_as(&folder.path().join("head.toml")).unwrap();
+    assert_eq!(document.text(), text);
+    document.save_as(&folder.path().join("scenes/head.toml")).unwrap();
+    let named = document.get(&key("volume.file")).and_then(|item| item.as_str()).unwrap();
+    assert_eq!(std::path::Path::new(named), folder.path().join("head.nrrd"));
+    assert!(document.save_as(&folder.path().join("none/head.toml")).is_err());
+    assert_eq!(document.path(), folder.path().join("scenes/head.toml"));
+}
