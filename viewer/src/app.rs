@@ -42,6 +42,18 @@ enum Pane {
     Panel(usize),
 }
 
+/// What draws the frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backend {
+    /// The card, unless it is software, which is many times slower than the reference.
+    #[default]
+    Auto,
+    /// The card, or the software that stands for one.
+    Card,
+    /// The reference.
+    Reference,
+}
+
 /// The window's state.
 pub struct Viewer {
     /// The document with all that is shown of it.
@@ -64,12 +76,13 @@ pub struct Viewer {
 }
 
 impl Viewer {
-    /// A window over a document. With `render`, whose device has the features of [`Gpu::descriptor`], a card draws the
-    /// frames.
-    pub fn new(ctx: &Context, render: Option<RenderState>, document: Document, state: State) -> Self {
+    /// A window over a document. The device of `render` is shared with the thread that draws. It has the features of
+    /// [`Gpu::descriptor`].
+    pub fn new(ctx: &Context, render: Option<RenderState>, backend: Backend, document: Document, state: State) -> Self {
         let card = render
             .as_ref()
-            .map(|render| Gpu::of(render.adapter.get_info(), render.device.clone(), render.queue.clone()));
+            .map(|render| Gpu::of(render.adapter.get_info(), render.device.clone(), render.queue.clone()))
+            .filter(|gpu| backend == Backend::Card || backend == Backend::Auto && !gpu.is_software());
         let waker = ctx.clone();
         let worker = Worker::new(card, Box::new(move || waker.request_repaint()));
         let panels = panels::all();
@@ -271,7 +284,7 @@ impl Viewer {
         ui.horizontal(|ui| {
             let document = &self.session.document;
             let name = document.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let mark = if document.is_changed() || document.is_untitled() { "●" } else { "" };
+            let mark = if document.is_changed() { "(changed)" } else { "" };
             ui.label(format!("{name} {mark}")).on_hover_text(document.path().display().to_string());
             ui.separator();
             if let Some(shown) = self.session.shown {

@@ -73,7 +73,7 @@ pub(crate) fn remove(document: &mut DocumentMut, key: &KeyPath) -> Result<(), Ed
         KeyStep::Item(index) => {
             match parent {
                 Item::ArrayOfTables(tables) => drop(tables.remove(*index)),
-                Item::Value(Value::Array(array)) => drop(array.remove(*index)),
+                Item::Value(Value::Array(array)) => remove_inline(array, *index),
                 _ => return Err(no_item(key)),
             };
             let is_empty = parent.as_array_of_tables().is_some_and(ArrayOfTables::is_empty);
@@ -118,25 +118,60 @@ pub(crate) fn insert(
     Ok(())
 }
 
-/// Inserts a table into an array, on a line of its own if the other items are.
+/// Inserts a table into an array, on a line of its own if the other items are. The comment at the end of a line belongs to
+/// the item of that line, although TOML has it before the next one.
 fn insert_inline(array: &mut Array, index: usize, table: InlineTable) {
     let index = index.min(array.len());
     let mut value = Value::InlineTable(table);
-    if let Some(neighbour) = array.get(index).or_else(|| array.get(index.saturating_sub(1))) {
-        let prefix = neighbour.decor().prefix().and_then(|prefix| prefix.as_str()).unwrap_or_default();
-        // A comment before the neighbour stays with the neighbour.
-        let line = match prefix.rfind('\n') {
-            Some(line) => &prefix[line..],
-            None if index == 0 => "",
-            None => " ",
-        };
-        value.decor_mut().set_prefix(line.to_owned());
-        if index == 0 && !prefix.contains('\n') {
-            let first = array.get_mut(0);
-            first.into_iter().for_each(|first| first.decor_mut().set_prefix(" "));
+    let [before, after] = split(&space(array, index));
+    if after.is_empty() {
+        // One line.
+        value.decor_mut().set_prefix(if index == 0 { before.as_str() } else { " " });
+        array.insert_formatted(index, value);
+        if index == 0 && array.len() > 1 {
+            set_space(array, 1, " ".into());
         }
+    } else {
+        let like = if index == array.len() { index.saturating_sub(1) } else { index };
+        let indent = space(array, like).rsplit('\n').next().unwrap_or_default().to_owned();
+        value.decor_mut().set_prefix(format!("{before}\n{indent}"));
+        array.insert_formatted(index, value);
+        set_space(array, index + 1, after);
     }
-    array.insert_formatted(index, value);
+}
+
+/// Removes an item of an array, with the comments above it and at the end of its line.
+fn remove_inline(array: &mut Array, index: usize) {
+    let [before, _] = split(&space(array, index));
+    let [own, after] = split(&space(array, index + 1));
+    array.remove(index);
+    match after.is_empty() {
+        true if index == 0 => set_space(array, index, before),
+        true => set_space(array, index, own),
+        false => set_space(array, index, before + &after),
+    }
+}
+
+/// Returns the space and the comments before an item of an array, or before its end.
+fn space(array: &Array, index: usize) -> String {
+    let raw = match array.get(index) {
+        Some(item) => item.decor().prefix(),
+        None => Some(array.trailing()),
+    };
+    raw.and_then(|raw| raw.as_str()).unwrap_or_default().to_owned()
+}
+
+fn set_space(array: &mut Array, index: usize, space: String) {
+    match array.get_mut(index) {
+        Some(item) => item.decor_mut().set_prefix(space),
+        None => array.set_trailing(space),
+    }
+}
+
+/// Cuts space before the end of its first line; the second part is empty if it has one line.
+fn split(space: &str) -> [String; 2] {
+    let (before, after) = space.split_at(space.find('\n').unwrap_or(space.len()));
+    [before.into(), after.into()]
 }
 
 /// Walks to the item that holds the last step of a key. Tables on the way are made.

@@ -1,9 +1,9 @@
 //! The window of Drypoint.
 //!
-//! `drypoint-viewer [FILE] [--screenshot PNG]`: FILE is a scene or a volume. Without one the window shows the example.
+//! `drypoint-viewer [FILE] [--backend NAME] [--screenshot PNG]`: FILE is a scene or a volume. Without one the window shows the example.
 
 use drypoint::gpu::Gpu;
-use drypoint_viewer::app::Viewer;
+use drypoint_viewer::app::{Backend, Viewer};
 use drypoint_viewer::open;
 use drypoint_viewer::state::State;
 use eframe::egui::{self, ViewportBuilder};
@@ -13,15 +13,16 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// How the program is called.
-const USAGE: &str = "Usage: drypoint-viewer [FILE] [--screenshot PNG]
+const USAGE: &str = "Usage: drypoint-viewer [FILE] [--backend NAME] [--screenshot PNG]
 
 Opens a window in which a volume is turned and its scene file edited.
   FILE              a scene (.toml) or a volume; without one the example
+  --backend NAME    what draws the frames: auto, gpu or reference; auto is gpu where there is a graphics card
   --screenshot PNG  writes a picture of the window once the frame is exact, and ends
 ";
 
 fn main() -> ExitCode {
-    let (mut file, mut screenshot) = (None, None);
+    let (mut file, mut screenshot, mut backend) = (None, None, Backend::Auto);
     let mut arguments = std::env::args_os().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
@@ -33,6 +34,15 @@ fn main() -> ExitCode {
                 println!("drypoint-viewer {}", env!("CARGO_PKG_VERSION"));
                 return ExitCode::SUCCESS;
             }
+            Some("--backend") => match arguments.next().as_ref().and_then(|name| name.to_str()) {
+                Some("auto") => backend = Backend::Auto,
+                Some("gpu") => backend = Backend::Card,
+                Some("reference") => backend = Backend::Reference,
+                _ => {
+                    eprint!("error: --backend is auto, gpu or reference\n{USAGE}");
+                    return ExitCode::from(2);
+                }
+            },
             Some("--screenshot") => screenshot = arguments.next().map(PathBuf::from),
             Some(option) if option.starts_with('-') => {
                 eprint!("error: there is no option {option}\n{USAGE}");
@@ -41,7 +51,7 @@ fn main() -> ExitCode {
             _ => file = Some(PathBuf::from(argument)),
         }
     }
-    match run(file, screenshot) {
+    match run(file, backend, screenshot) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -50,7 +60,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(file: Option<PathBuf>, screenshot: Option<PathBuf>) -> Result<(), Box<dyn std::error::Error>> {
+fn run(file: Option<PathBuf>, backend: Backend, screenshot: Option<PathBuf>) -> Result<(), Box<dyn std::error::Error>> {
     let document = match &file {
         Some(file) => open::open(file)?,
         None => open::example(),
@@ -72,7 +82,7 @@ fn run(file: Option<PathBuf>, screenshot: Option<PathBuf>) -> Result<(), Box<dyn
     };
     let create = move |creation: &eframe::CreationContext<'_>| {
         let render = creation.wgpu_render_state.clone();
-        let mut viewer = Viewer::new(&creation.egui_ctx, render, document, state);
+        let mut viewer = Viewer::new(&creation.egui_ctx, render, backend, document, state);
         screenshot.into_iter().for_each(|path| viewer.take_screenshot(path));
         Ok(Box::new(Window(viewer)) as Box<dyn eframe::App>)
     };

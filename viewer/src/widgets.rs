@@ -2,7 +2,7 @@
 
 use crate::camera::{number, rounded};
 use crate::schema::ValueKind;
-use eframe::egui::{self, Color32, ComboBox, DragValue, Id, TextEdit, Ui};
+use eframe::egui::{self, Color32, ComboBox, DragValue, Id, Response, TextEdit, Ui};
 use serde_json::Value as Json;
 use toml_edit::{Array, Item};
 
@@ -90,6 +90,11 @@ pub fn color_button(ui: &mut Ui, text: &str) -> Option<String> {
     let is_changed =
         egui::color_picker::color_edit_button_srgba(ui, &mut color, egui::color_picker::Alpha::OnlyBlend).changed();
     is_changed.then(|| hex(color))
+}
+
+/// Gives a widget a name for screen readers.
+pub fn named(response: &Response, name: &str) {
+    response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name));
 }
 
 /// A colour as a scene file writes it.

@@ -35,9 +35,10 @@ fn key(text: &str) -> KeyPath {
 /// Every edit changes the lines that it names, and no other byte.
 #[test]
 fn edits_keep_comments_and_layout() {
-    let line = "  { at = 120, color = \"#000000\", opacity = 0.5 },";
-    let node =
-        || InlineTable::from_iter([("at", Value::from(120)), ("color", "#000000".into()), ("opacity", 0.5.into())]);
+    let line = |at: i64| format!("  {{ at = {at}, color = \"#000000\", opacity = 0.5 }},");
+    let node = |at: i64| {
+        InlineTable::from_iter([("at", Value::from(at)), ("color", "#000000".into()), ("opacity", 0.5.into())])
+    };
     let clip =
         || InlineTable::from_iter([("normal", Value::from_iter([0, 1, 0])), ("point", Value::from_iter([0, 5, 0]))]);
     let cases: Vec<(Edit, &str, String)> = vec![
@@ -47,7 +48,27 @@ fn edits_keep_comments_and_layout() {
         (Edit::set("clip[0].point", Value::from_iter([11, 0, 0])), "[12, 0, 0]", "[11, 0, 0]".into()),
         (Edit::set("transfer.unit", "value"), "]\n\n[[clip", "]\nunit = \"value\"\n\n[[clip".into()),
         (Edit::remove("clip[0]"), "\n[[clip]]\nnormal = [1, 0, 0]\npoint = [12, 0, 0]   # the middle\n", String::new()),
-        (Edit::Insert(key("transfer.nodes"), 1, node()), ",     # outside", format!(",     # outside\n{line}")),
+        (
+            Edit::Insert(key("transfer.nodes"), 1, node(120)),
+            ",     # outside",
+            format!(",     # outside\n{}", line(120)),
+        ),
+        (
+            Edit::remove("transfer.nodes[0]"),
+            "\n  { at = 100, color = \"#804020\", opacity = 0 },     # outside",
+            String::new(),
+        ),
+        (
+            Edit::remove("transfer.nodes[1]"),
+            "\n  # the surface\n  { at = 150, color = \"#ffcc88\", opacity = 0.9 },",
+            String::new(),
+        ),
+        (Edit::Insert(key("transfer.nodes"), 2, node(160)), "0.9 },\n", format!("0.9 }},\n{}\n", line(160))),
+        (
+            Edit::Insert(key("transfer.nodes"), 0, node(90)),
+            "[\n  { at = 100",
+            format!("[\n{}\n  {{ at = 100", line(90)),
+        ),
         (
             Edit::Insert(key("clip"), 1, clip()),
             "# the middle\n",

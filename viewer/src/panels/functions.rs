@@ -6,7 +6,7 @@ use crate::document::Edit;
 use crate::gallery::Gallery;
 use crate::key::KeyPath;
 use crate::session::Session;
-use crate::widgets::{color_button, hex, numbers};
+use crate::widgets::{color_button, hex, named, numbers};
 use drypoint::scene::color::linear_to_srgb;
 use drypoint::scene::tables::{Node, NodeColor, Transfer, TransferKind, Unit};
 use eframe::egui::{self, Color32, DragValue, RichText, ScrollArea, Ui, Vec2b};
@@ -182,7 +182,7 @@ impl FunctionsPanel {
                         continue;
                     };
                     let drag = ui.add(DragValue::new(&mut x).speed(speed).range(range).max_decimals(4));
-                    drag.widget_info(|| egui::WidgetInfo::drag_value(true, x));
+                    named(&drag, &format!("{name} of node {i}"));
                     if drag.changed() {
                         session.set(&key, number(rounded(x, 4)));
                     }
