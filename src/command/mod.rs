@@ -30,6 +30,7 @@ mod stats;
 mod strokes;
 mod styles;
 mod validate;
+mod view;
 mod wedge;
 
 use crate::Failures;
@@ -75,6 +76,8 @@ struct Talk {
 enum Verb {
     /// Render a scene or a bare volume to a picture (the default verb)
     Render(render::RenderArgs),
+    /// Open a window in which a volume is turned and its scene file edited
+    View(view::ViewArgs),
     /// Describe a volume file: size, type, range, histogram
     Info(info::InfoArgs),
     /// Print value, derivatives and curvature at points
@@ -177,6 +180,7 @@ impl Cli {
         self.limits.apply()?;
         match self.verb {
             Verb::Render(verb) => verb.run(talk),
+            Verb::View(verb) => verb.run(),
             Verb::Info(verb) => verb.run(talk),
             Verb::Probe(verb) => verb.run(talk),
             Verb::Pick(verb) => verb.run(talk),

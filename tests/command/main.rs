@@ -32,4 +32,5 @@ mod styles;
 mod template;
 mod terminal;
 mod usage;
+mod view;
 mod wedge;

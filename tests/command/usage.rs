@@ -24,6 +24,7 @@ fn help_and_version_are_no_errors() {
     let help = folder.good("--help");
     for verb in [
         "render",
+        "view",
         "info",
         "probe",
         "pick",

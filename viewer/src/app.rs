@@ -151,7 +151,7 @@ impl Viewer {
             let mut behavior = Layout { session: &mut self.session, panels: &mut self.panels };
             self.tree.ui(&mut behavior, ui);
         });
-        actions.extend(self.palette.ui(&ctx, &mut |path| self.dialogs.put(Wish::Open, path)));
+        actions.extend(self.palette.ui(&ctx, &mut |wish, path| self.dialogs.put(wish, path)));
         self.ask_to_close(&ctx);
         for action in actions {
             self.run(&ctx, action);
@@ -528,6 +528,7 @@ impl egui_tiles::Behavior<Pane> for Layout<'_> {
             Pane::Picture => picture(ui, self.session, self.panels),
             Pane::Panel(i) => {
                 if let Some(panel) = self.panels.get_mut(i) {
+                    ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
                     egui::Frame::new().inner_margin(8).show(ui, |ui| panel.ui(ui, self.session));
                 }
             }

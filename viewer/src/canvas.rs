@@ -78,7 +78,7 @@ pub(crate) fn codes(picture: &Picture) -> Result<([usize; 2], Pixels), Failure> 
 }
 
 /// Seconds of a frame while the camera moves.
-const QUICK: f64 = 0.06;
+const QUICK: f64 = 0.1;
 
 /// The divisor of sides of the first frame of what is slow.
 const FIRST: usize = 4;
@@ -86,27 +86,36 @@ const FIRST: usize = 4;
 /// The largest divisor of sides.
 const COARSEST: usize = 8;
 
-/// Seconds of exact frames, which tell how coarse frames are while the camera moves.
+/// Seconds of frames, which tell how coarse they are while the camera moves.
 #[derive(Debug, Default)]
 pub(crate) struct Pace {
     exact: Option<f64>,
+    /// Seconds of a coarse frame, times the square of its divisor: those of a frame with one ray a pixel.
+    one_ray: Option<f64>,
 }
 
 impl Pace {
-    /// Returns the divisor of the sides of frames while the camera moves; none: they are exact.
-    pub(crate) fn divisor(&self, is_slow: bool) -> Option<NonZeroUsize> {
-        let divisor = match self.exact {
-            Some(seconds) => (seconds / QUICK).sqrt().ceil().clamp(1.0, COARSEST as f64) as usize,
-            None if is_slow => FIRST,
-            None => 1,
+    /// Returns the divisors of the sides of frames after a move, the coarsest first. The last one is 1, the exact frame.
+    pub(crate) fn divisors(&self, is_slow: bool) -> Vec<NonZeroUsize> {
+        let coarse = match (self.exact, self.one_ray) {
+            (Some(exact), _) if exact <= QUICK => 1,
+            (exact, one_ray) => match one_ray.or(exact) {
+                Some(seconds) => (seconds / QUICK).sqrt().ceil().clamp(2.0, COARSEST as f64) as usize,
+                None if is_slow => FIRST,
+                None => 1,
+            },
         };
-        NonZeroUsize::new(divisor).filter(|divisor| divisor.get() > 1)
+        // Each frame has about four times the pixels of the one before it.
+        let halves = std::iter::successors(Some(coarse), |divisor| Some(divisor / 2).filter(|half| *half > 1));
+        let coarse = halves.filter(|divisor| *divisor > 1).filter_map(NonZeroUsize::new);
+        coarse.chain([NonZeroUsize::MIN]).collect()
     }
 
     /// Takes the seconds of a frame with sides divided by `divisor`.
     pub(crate) fn learn(&mut self, divisor: NonZeroUsize, seconds: f64) {
-        if divisor == NonZeroUsize::MIN {
-            self.exact = Some(seconds);
+        match divisor.get() {
+            1 => self.exact = Some(seconds),
+            n => self.one_ray = Some(seconds * (n * n) as f64),
         }
     }
 }
@@ -118,13 +127,15 @@ mod tests {
     #[test]
     fn frames_are_coarse_if_exact_ones_take_long() {
         let mut pace = Pace::default();
-        let divisor = |pace: &Pace, is_slow| pace.divisor(is_slow).map(NonZeroUsize::get);
-        assert_eq!([true, false].map(|is_slow| divisor(&pace, is_slow)), [Some(FIRST), None]);
-        for (seconds, expected) in [(0.01, None), (4.0 * QUICK, Some(2)), (100.0, Some(COARSEST))] {
-            pace.learn(NonZeroUsize::MIN, seconds);
-            // Coarse frames teach nothing.
-            pace.learn(NonZeroUsize::MAX, 0.0);
-            assert_eq!([true, false].map(|is_slow| divisor(&pace, is_slow)), [expected; 2]);
+        let divisors =
+            |pace: &Pace, is_slow| pace.divisors(is_slow).into_iter().map(NonZeroUsize::get).collect::<Vec<_>>();
+        assert_eq!([true, false].map(|is_slow| divisors(&pace, is_slow)), [vec![4, 2, 1], vec![1]]);
+        for (exact, expected) in [(0.5 * QUICK, vec![1]), (9.0 * QUICK, vec![3, 1]), (1e9, vec![8, 4, 2, 1])] {
+            pace.learn(NonZeroUsize::MIN, exact);
+            assert_eq!(divisors(&pace, true), expected);
         }
+        // A coarse frame tells better how long others take.
+        pace.learn(NonZeroUsize::new(4).unwrap(), QUICK);
+        assert_eq!(divisors(&pace, true), [4, 2, 1]);
     }
 }

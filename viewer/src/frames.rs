@@ -231,8 +231,8 @@ impl Artist {
     ) -> Result<Option<Next>, Failure> {
         let on_page = request.scene.draws_on_page();
         if let Some(canvas) = canvas {
-            let coarse = self.pace.divisor(canvas.is_slow(self.card.as_ref()));
-            for divisor in coarse.into_iter().chain([NonZeroUsize::MIN]) {
+            let divisors = self.pace.divisors(canvas.is_slow(self.card.as_ref()));
+            for (i, &divisor) in divisors.iter().enumerate() {
                 let is_coarse = divisor > NonZeroUsize::MIN;
                 let drawn = match canvas.turn(&shot(job, request, divisor)?) {
                     // Frames with funnels have one size on a card.
@@ -246,7 +246,8 @@ impl Artist {
                     self.answer(Answer::Drawn(frame));
                 }
                 if is_coarse || on_page {
-                    match self.mailbox.take(Some(REST)) {
+                    let rest = if i == 0 { REST } else { Duration::ZERO };
+                    match self.mailbox.take(Some(rest)) {
                         Mail::Request(newer) => return Ok(Some(Next::Request(newer))),
                         Mail::Closed => return Ok(Some(Next::Closed)),
                         Mail::Nothing => {}

@@ -14,7 +14,7 @@ use eframe::egui::{self, Color32, PointerButton, Rect, Sense, Ui, Vec2, pos2};
 const TURN: f64 = std::f64::consts::PI;
 
 /// Factor of a distance for a point of the wheel, or of a drag up or down.
-const STEP: f64 = 1.0025;
+const STEP: f64 = 1.002;
 
 /// Shows the picture with the handles of panels over it.
 pub fn picture(ui: &mut Ui, session: &mut Session, panels: &mut [Box<dyn Panel>]) {

@@ -29,15 +29,18 @@ pub fn editor(ui: &mut Ui, id: &str, label: Id, value: Value<'_>) -> Option<toml
         ValueKind::Choice(choices) => {
             let chosen = given.as_ref().and_then(Item::as_str).or(default.and_then(Json::as_str)).unwrap_or_default();
             let mut picked = None;
-            let combo = ComboBox::from_id_salt(id).selected_text(chosen).width(130.0).show_ui(ui, |ui| {
-                for (name, doc) in choices {
-                    let option = ui.selectable_label(name == chosen, name);
-                    let option = if doc.is_empty() { option } else { option.on_hover_text(doc) };
-                    if option.clicked() {
-                        picked = Some(name.as_str().into());
+            let combo = ComboBox::from_id_salt(id)
+                .selected_text(if chosen.is_empty() { "—" } else { chosen })
+                .width(130.0)
+                .show_ui(ui, |ui| {
+                    for (name, doc) in choices {
+                        let option = ui.selectable_label(name == chosen, name);
+                        let option = if doc.is_empty() { option } else { option.on_hover_text(doc) };
+                        if option.clicked() {
+                            picked = Some(name.as_str().into());
+                        }
                     }
-                }
-            });
+                });
             combo.response.labelled_by(label);
             picked
         }

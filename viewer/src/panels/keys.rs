@@ -39,7 +39,8 @@ impl Panel for KeysPanel {
         let Self { root, search, only_given } = self;
         let filter = Filter { search: search.trim().to_lowercase(), only_given: *only_given };
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            for child in root.children() {
+            // The version of the format is no choice.
+            for child in root.children().iter().filter(|child| child.name != "drypoint") {
                 tree(ui, session, child, &KeyPath::default().name(&child.name), &filter);
             }
         });
@@ -104,7 +105,13 @@ fn tree(ui: &mut Ui, session: &mut Session, node: &Node, path: &KeyPath, filter:
         }
         Kind::Value(kind) => {
             ui.horizontal(|ui| {
-                let label = ui.add_sized([130.0, 18.0], egui::Label::new(title).truncate()).on_hover_text(&node.doc);
+                ui.add_space(18.0);
+                let left = egui::Layout::left_to_right(egui::Align::Center);
+                let named = ui.allocate_ui_with_layout(egui::vec2(124.0, 18.0), left, |ui| {
+                    ui.set_min_width(124.0);
+                    ui.add(egui::Label::new(title).truncate())
+                });
+                let label = named.inner.on_hover_text(&node.doc);
                 let value = Value { kind, given: session.document.get(path).cloned(), default: node.default.as_ref() };
                 if let Some(set) = editor(ui, &path.to_string(), label.id, value) {
                     session.set(path, set);
