@@ -84,7 +84,7 @@ pub enum Answer {
 
 /// A handle of the thread, which ends when it is dropped.
 pub struct Worker {
-    mailbox: Arc<Mailbox<Request>>,
+    mailbox: Arc<Mailbox<Box<Request>>>,
     answers: Receiver<Answer>,
     thread: Option<JoinHandle<()>>,
 }
@@ -103,7 +103,7 @@ impl Worker {
 
     /// Asks for frames of a scene, in place of all before.
     pub fn ask(&self, request: Request) {
-        self.mailbox.put(request);
+        self.mailbox.put(Box::new(request));
     }
 
     /// Returns the answers since the last call.
@@ -122,7 +122,7 @@ impl Drop for Worker {
 
 /// The thread's own state.
 struct Artist {
-    mailbox: Arc<Mailbox<Request>>,
+    mailbox: Arc<Mailbox<Box<Request>>>,
     sender: Sender<Answer>,
     wake: Box<dyn Fn() + Send>,
     card: Option<Presenter>,
@@ -134,7 +134,7 @@ struct Artist {
 
 /// The end of the work on a job.
 enum Next {
-    Request(Request),
+    Request(Box<Request>),
     Closed,
 }
 
@@ -182,7 +182,7 @@ impl Artist {
     }
 
     /// Draws a job, and the requests after it that only move its camera.
-    fn serve(&mut self, job: &Job, mut request: Request) -> Result<Next, Failure> {
+    fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Next, Failure> {
         let mut warnings: Vec<String> = job.plan.warnings.iter().map(ToString::to_string).collect();
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
         self.answer(Answer::Prepared(Arc::new(job.scene.clone()), warnings));

@@ -3,6 +3,7 @@
 use drypoint::gpu::{Gpu, wgpu};
 use drypoint::output::read::read_image;
 use drypoint::scene::color::linear_to_srgb;
+use drypoint::scene::glam::DVec3;
 use drypoint_viewer::app::{Backend, Viewer};
 use drypoint_viewer::commands::Action;
 use drypoint_viewer::document::Document;
@@ -89,7 +90,7 @@ fn settle(window: &mut Window) {
     window.run_steps(2);
 }
 
-fn viewer<'w>(window: &'w Window) -> &'w Viewer {
+fn viewer(window: &Window) -> &Viewer {
     window.state().as_ref().unwrap()
 }
 
@@ -278,6 +279,50 @@ fn every_key_can_be_found_and_edited() {
     press(&mut window, Key::ArrowUp, Modifiers::NONE);
     settle(&mut window);
     assert!(text(&window).contains("[sampling]\nstop_below = "), "{}", text(&window));
+}
+
+/// A clip plane is added through the middle, and its handle moves it along its normal.
+#[test]
+fn a_clip_plane_is_moved_by_its_handle() {
+    let Some(mut window) = window(SCENE, Backend::Card) else { return };
+    window.get_by_label("Clip planes").click();
+    window.run_steps(2);
+    window.get_by_label("z").click();
+    settle(&mut window);
+    let added = text(&window);
+    assert!(added.ends_with("[shading]\n\n[[clip]]\nnormal = [0, 0, 1]\npoint = [11.5, 11.5, 11.5]\n"), "{added}");
+    let (whole, pose) = (pixels(&window), viewer(&window).session.pose().unwrap());
+    // The handle is dragged to where a point of the axis is seen.
+    let handle = window.get_by_label("Clip plane 0").rect().center();
+    let picture = window.get_by_label("Picture").rect();
+    let scale = (picture.width() / 96.0).min(picture.height() / 72.0);
+    let to = DVec3::new(11.5, 11.5, 9.5);
+    let [from, to] = [DVec3::splat(11.5), to].map(|p| pose.view.point_of(p).unwrap());
+    let by = Vec2::new((to[0] - from[0]) as f32, (to[1] - from[1]) as f32) * scale;
+    drag(&mut window, PointerButton::Primary, handle, handle + by, Modifiers::NONE);
+    settle(&mut window);
+    let scene = viewer(&window).session.scene.clone().unwrap();
+    let point = scene.clips[0].point.unwrap();
+    assert!(point.x == 11.5 && point.y == 11.5 && (point.z - 9.5).abs() < 0.2, "{point}");
+    assert!(text(&window).contains("eye = [50, -20, 40]"), "the view turned");
+    assert!(difference(&whole, &pixels(&window)) > 0.01);
+    press(&mut window, Key::Z, Modifiers::COMMAND);
+    assert_eq!(text(&window), added);
+}
+
+/// A node takes another style from the gallery.
+#[test]
+fn a_style_is_chosen_by_its_sphere() {
+    let styles = SCENE.replace("regular", "style").replace("color = \"#804020\"", "style = \"wax\"");
+    let styles = styles.replace("color = \"#ffcc88\"", "style = \"glass\"").replace("\n[shading]\n", "");
+    let Some(mut window) = window(&styles, Backend::Reference) else { return };
+    let first = pixels(&window);
+    window.get_by_label_contains("glass").click();
+    window.run_steps(3);
+    window.get_by_label("the style bone").click();
+    settle(&mut window);
+    assert_eq!(text(&window), styles.replace("glass", "bone"));
+    assert!(difference(&first, &pixels(&window)) > 0.05);
 }
 
 /// A picture that the window exports is the command's, byte for byte.

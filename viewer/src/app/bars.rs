@@ -1,0 +1,159 @@
+//! The bars around the panes: menus, the status line, and what asks for attention.
+
+use super::Viewer;
+use crate::commands::{Action, COMMANDS, MENUS};
+use eframe::egui::{self, Align2, Context, RichText, Ui, ViewportCommand};
+
+impl Viewer {
+    pub(super) fn menus(&mut self, ui: &mut Ui) -> Vec<Action> {
+        let mut actions = Vec::new();
+        egui::MenuBar::new().ui(ui, |ui| {
+            for menu in MENUS {
+                ui.menu_button(menu, |ui| {
+                    for command in COMMANDS.iter().filter(|command| command.menu == menu) {
+                        let keys = command.keys.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
+                        let button = egui::Button::new(command.name).shortcut_text(keys);
+                        if ui.add_enabled(self.is_possible(command.action), button).clicked() {
+                            actions.push(command.action);
+                            ui.close();
+                        }
+                    }
+                    if menu == "File" {
+                        self.recent(ui);
+                    }
+                });
+            }
+        });
+        actions
+    }
+
+    fn recent(&mut self, ui: &mut Ui) {
+        ui.separator();
+        ui.weak("Recent");
+        let mut chosen = None;
+        for path in &self.state.recent {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                chosen = Some(path.clone());
+                ui.close();
+            }
+        }
+        chosen.into_iter().for_each(|path| self.open(&path));
+    }
+
+    fn is_possible(&self, action: Action) -> bool {
+        match action {
+            Action::Undo => self.session.document.history().next_undo().is_some(),
+            Action::Redo => self.session.document.history().next_redo().is_some(),
+            Action::Export => self.session.scene.is_some() && self.export.is_none(),
+            Action::Copy => self.session.shown.is_some(),
+            _ => true,
+        }
+    }
+
+    /// The line at the bottom: the document, the frame, and what was said last.
+    pub(super) fn status(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let document = &self.session.document;
+            let name = document.path().file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let mark = if document.is_changed() { "(changed)" } else { "" };
+            ui.label(format!("{name} {mark}")).on_hover_text(document.path().display().to_string());
+            ui.separator();
+            if let Some(shown) = self.session.shown {
+                let [width, height] = shown.size;
+                let kind = if shown.is_coarse { "coarse" } else { "exact" };
+                ui.label(format!("{width} × {height}, {kind}, {:.0} ms", shown.seconds * 1e3));
+            }
+            if let Some(export) = &self.export {
+                ui.separator();
+                ui.add(egui::ProgressBar::new(export.share() as f32).desired_width(120.0).show_percentage());
+                if ui.small_button("Cancel the export").clicked() {
+                    export.stop();
+                }
+            }
+            if let Some(warning) = self.session.warnings.first() {
+                ui.separator();
+                let all = self.session.warnings.join("\n");
+                ui.add(
+                    egui::Label::new(RichText::new(format!("⚠ {warning}")).color(ui.visuals().warn_fg_color))
+                        .truncate(),
+                )
+                .on_hover_text(all);
+            }
+            if !self.session.notice.is_empty() {
+                ui.separator();
+                ui.add(egui::Label::new(&self.session.notice).truncate()).on_hover_text(&self.session.notice);
+            }
+        });
+    }
+
+    /// What asks for attention above the picture: faults of the scene, and a text of an earlier session.
+    pub(super) fn banners(&mut self, ui: &mut Ui) {
+        if let Some(text) = self.recovered.take() {
+            let mut is_open = true;
+            egui::Panel::top("recovered").show(ui, |ui| {
+                ui.horizontal_wrapped(|ui| {
+                    ui.label("Changes of an earlier window were not saved.");
+                    if ui.button("Restore them").clicked() {
+                        self.session.document.replace("restore", text.clone());
+                        is_open = false;
+                    }
+                    if ui.button("Forget them").clicked() {
+                        self.state.forget_unsaved(self.session.document.path());
+                        is_open = false;
+                    }
+                });
+            });
+            self.recovered = is_open.then_some(text);
+        }
+        if let Some(failures) = self.session.failures.clone() {
+            egui::Panel::top("faults").show(ui, |ui| {
+                for failure in failures.iter().take(3) {
+                    ui.label(RichText::new(&failure.what).color(ui.visuals().error_fg_color).strong());
+                    ui.label(format!("{} — {}", failure.place, failure.remedy));
+                }
+                if ui.button("Undo the last change").clicked() {
+                    self.session.document.undo();
+                }
+            });
+        }
+    }
+
+    /// Asks what to do with changes that are not saved before the window is closed.
+    pub(super) fn ask_to_close(&mut self, ctx: &Context) {
+        if ctx.input(|input| input.viewport().close_requested())
+            && self.session.document.is_changed()
+            && !self.may_close
+        {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.is_asking_to_close = true;
+        }
+        if !self.is_asking_to_close {
+            return;
+        }
+        egui::Window::new("Save the changes?")
+            .collapsible(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_CENTER, [0.0; 2])
+            .show(ctx, |ui| {
+                ui.label(format!("{} was changed.", self.session.document.path().display()));
+                ui.horizontal(|ui| {
+                    if ui.button("Save").clicked() {
+                        self.is_asking_to_close = false;
+                        self.run(ctx, Action::Save);
+                        if !self.session.document.is_changed() {
+                            ctx.send_viewport_cmd(ViewportCommand::Close);
+                        }
+                    }
+                    if ui.button("Close without saving").clicked() {
+                        self.may_close = true;
+                        self.state.forget_unsaved(self.session.document.path());
+                        ctx.send_viewport_cmd(ViewportCommand::Close);
+                    }
+                    if ui.button("Cancel").clicked() {
+                        self.is_asking_to_close = false;
+                    }
+                });
+            });
+    }
+}
