@@ -87,7 +87,11 @@ impl Gpu {
         features: wgpu::Features,
         limits: impl FnOnce(wgpu::Limits) -> wgpu::Limits,
     ) -> Result<Self, GpuError> {
-        let instance = wgpu::Instance::default();
+        // Other crates of a program may compile OpenGL, which lacks what shaders here need.
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+            backends: wgpu::Backends::PRIMARY,
+            ..wgpu::InstanceDescriptor::new_without_display_handle()
+        });
         let options = wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()

@@ -16,7 +16,7 @@ use crate::panels::{self, Panel};
 use crate::screen::Screen;
 use crate::session::Session;
 use crate::state::State;
-use drypoint::gpu::Gpu;
+use drypoint::gpu::{Gpu, wgpu};
 use eframe::egui::{self, CentralPanel, Context, Ui, ViewportCommand};
 use eframe::egui_wgpu::RenderState;
 use egui_tiles::Tree;
@@ -26,6 +26,9 @@ use std::time::{Duration, Instant};
 
 /// Time between looks at the file, and between keeping texts that are not saved.
 const LOOK: Duration = Duration::from_secs(1);
+
+/// Pause after which a further change is undone by itself.
+const PAUSE: Duration = Duration::from_millis(700);
 
 /// What draws the frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +59,8 @@ pub struct Viewer {
     looked: Instant,
     /// The revision whose text was kept.
     kept: u64,
+    /// The revision of the last change, and its time.
+    changed: (u64, Instant),
     /// A file for a picture of the window, once the frame is exact.
     screenshot: Option<PathBuf>,
 }
@@ -64,10 +69,7 @@ impl Viewer {
     /// A window over a document. The device of `render` is shared with the thread that draws. It has the features of
     /// [`Gpu::descriptor`].
     pub fn new(ctx: &Context, render: Option<RenderState>, backend: Backend, document: Document, state: State) -> Self {
-        let card = render
-            .as_ref()
-            .map(|render| Gpu::of(render.adapter.get_info(), render.device.clone(), render.queue.clone()))
-            .filter(|gpu| backend == Backend::Card || backend == Backend::Auto && !gpu.is_software());
+        let card = render.as_ref().and_then(|render| card(render, backend));
         let waker = ctx.clone();
         let worker = Worker::new(card, Box::new(move || waker.request_repaint()));
         let panels = panels::all();
@@ -86,6 +88,7 @@ impl Viewer {
             may_close: false,
             looked: Instant::now(),
             kept: 0,
+            changed: (0, Instant::now()),
             screenshot: None,
         };
         viewer.look(ctx);
@@ -141,11 +144,20 @@ impl Viewer {
         for action in actions {
             self.run(&ctx, action);
         }
-        // What is changed in this pass is drawn at once, and the end of a drag ends its group.
-        if ctx.input(|input| input.pointer.any_released() || input.keys_down.is_empty() && !input.pointer.any_down()) {
+        self.seal(&ctx);
+        self.session.update(&ctx);
+    }
+
+    /// Ends the group of changes that are undone together: when a button is released, and after a pause without one.
+    fn seal(&mut self, ctx: &Context) {
+        let revision = self.session.document.revision();
+        if self.changed.0 != revision {
+            self.changed = (revision, Instant::now());
+        }
+        let (is_released, is_down) = ctx.input(|input| (input.pointer.any_released(), input.pointer.any_down()));
+        if is_released || !is_down && self.changed.1.elapsed() > PAUSE {
             self.session.document.seal();
         }
-        self.session.update(&ctx);
     }
 
     /// Takes what came from outside: answers of dialogs, files, and the end of an export.
@@ -217,4 +229,12 @@ impl Viewer {
         };
         COMMANDS.iter().filter(pressed).map(|command| command.action).collect()
     }
+}
+
+/// Returns the card of a window's device, if it is to draw the frames. OpenGL lacks what the shaders need.
+fn card(render: &RenderState, backend: Backend) -> Option<Gpu> {
+    let info = render.adapter.get_info();
+    let is_there = info.backend != wgpu::Backend::Gl && backend != Backend::Reference;
+    let gpu = is_there.then(|| Gpu::of(info, render.device.clone(), render.queue.clone()));
+    gpu.filter(|gpu| backend == Backend::Card || !gpu.is_software())
 }

@@ -200,6 +200,9 @@ fn wheel_and_keys_move_the_camera() {
     window.run_steps(30);
     let after = viewer(&window).session.pose().unwrap();
     assert!(after.depth() < 0.95 * before.depth(), "{} {}", after.depth(), before.depth());
+    // A turn of the wheel is one change.
+    press(&mut window, Key::Z, Modifiers::COMMAND);
+    assert_eq!(text(&window), SCENE);
     press(&mut window, Key::Num1, Modifiers::NONE);
     settle(&mut window);
     assert!((viewer(&window).session.pose().unwrap().view.forward.y + 1.0).abs() < 1e-5);

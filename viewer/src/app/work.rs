@@ -36,8 +36,7 @@ impl Viewer {
             Action::Redo => drop(session.document.redo()),
             Action::Look(side) => self.look_from(side),
             Action::Whole => {
-                let forward = session.pose().map(|pose| pose.look([pose.view.forward, pose.up]));
-                if let (Some(pose), Some(scene)) = (forward, session.scene.clone()) {
+                if let (Some(pose), Some(scene)) = (session.pose(), session.scene.clone()) {
                     let whole = Camera { eye: None, target: None, ..scene.camera.clone() };
                     let mut edits = pose.edits(&whole, &pose);
                     edits.extend(["camera.eye", "camera.target", "camera.height"].map(Edit::remove));
@@ -47,7 +46,6 @@ impl Viewer {
             Action::Turn(right, up) => {
                 let [yaw, pitch] = [right, up].map(|steps| f64::from(steps) * TURN);
                 session.move_camera("turn the view", |pose| pose.orbit(yaw, -pitch));
-                session.document.seal();
             }
             Action::Dolly(steps) => {
                 let factor = STEP.powi(i32::from(steps));

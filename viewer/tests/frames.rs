@@ -1,0 +1,130 @@
+//! The thread that draws: what is prepared anew, and that each frame is that of a fresh thread.
+
+use drypoint::gpu::Gpu;
+use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::tables::Scene;
+use drypoint_viewer::canvas::Pixels;
+use drypoint_viewer::frames::{Answer, Request, Worker};
+use std::time::{Duration, Instant};
+
+const SCENE: &str = r##"
+drypoint = 1
+[volume]
+phantom = { name = "torus", size = 24 }
+[picture]
+size = [60, 45]
+samples = 1
+[camera]
+direction = [1, 2, -3]
+[transfer]
+kind = "regular"
+nodes = [{ at = 120, color = "#804020", opacity = 0 }, { at = 150, color = "#ffcc88", opacity = 0.9 }]
+[shading]
+"##;
+
+fn scene(text: &str) -> Scene {
+    parse(text, "ring.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
+/// What a thread answered until the exact frame of a request.
+#[derive(Default)]
+struct Answers {
+    loaded: usize,
+    prepared: usize,
+    coarse: usize,
+    failed: Option<String>,
+    size: [usize; 2],
+    bytes: Vec<u8>,
+}
+
+fn ask(worker: &Worker, revision: u64, text: &str, longest: usize) -> Answers {
+    worker.ask(Request { revision, scene: scene(text), longest });
+    let (start, mut all) = (Instant::now(), Answers::default());
+    loop {
+        assert!(start.elapsed() < Duration::from_secs(60), "no answer");
+        std::thread::sleep(Duration::from_millis(2));
+        for answer in worker.answers() {
+            match answer {
+                Answer::Loaded(_) => all.loaded += 1,
+                Answer::Prepared(..) => all.prepared += 1,
+                Answer::Failed(of, failures) => {
+                    assert_eq!(of, revision);
+                    all.failed = Some(failures.to_string());
+                    return all;
+                }
+                Answer::Drawn(frame) if frame.is_coarse => all.coarse += 1,
+                Answer::Drawn(frame) => {
+                    assert_eq!(frame.revision, revision);
+                    all.size = frame.size;
+                    if let Pixels::Bytes(bytes) = frame.pixels {
+                        all.bytes = bytes;
+                    }
+                    return all;
+                }
+            }
+        }
+    }
+}
+
+/// Changes of the camera prepare nothing, changes of other keys keep the volume, and every frame is that of a fresh thread.
+#[test]
+fn what_is_drawn_depends_on_the_last_request_alone() {
+    let turned = SCENE.replace("[1, 2, -3]", "[-3, 1, 1]");
+    let clipped = format!("{turned}[[clip]]\nnormal = [1, 0, 0]\npoint = [12, 0, 0]\n");
+    let labelled = format!("{SCENE}[scale_bar]\n");
+    let turned_labelled = format!("{turned}[scale_bar]\n");
+    let other = SCENE.replace("size = 24", "size = 20");
+    let lens = SCENE.replace("direction", "fov = 20\ndirection");
+    let worker = Worker::new(None, Box::new(|| ()));
+    for (i, (text, loaded, prepared)) in [
+        (&SCENE.to_owned(), 1, 1),
+        (&turned, 0, 0),
+        (&SCENE.to_owned(), 0, 0),
+        (&lens, 0, 1),
+        (&clipped, 0, 1),
+        (&labelled, 0, 1),
+        (&turned_labelled, 0, 0),
+        (&other, 1, 1),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let drawn = ask(&worker, i as u64, text, 1000);
+        assert_eq!([drawn.loaded, drawn.prepared], [loaded, prepared], "{text}");
+        let fresh = ask(&Worker::new(None, Box::new(|| ())), 0, text, 1000);
+        assert!(drawn.bytes == fresh.bytes && !drawn.bytes.is_empty() && drawn.failed.is_none(), "{text}");
+        assert_eq!(drawn.size, [60, 45]);
+    }
+    // A window with fewer pixels gets a smaller picture of the same shape.
+    assert_eq!(ask(&worker, 9, SCENE, 20).size, [20, 15]);
+}
+
+/// On a card neither a turn nor a change of numbers compiles a pipeline.
+#[test]
+fn a_card_compiles_nothing_for_a_turn() {
+    let Ok(gpu) = Gpu::new() else {
+        assert!(std::env::var_os("DRYPOINT_REQUIRE_GPU").is_none(), "no adapter");
+        return println!("skipped: no adapter");
+    };
+    let worker = Worker::new(Some(gpu.clone()), Box::new(|| ()));
+    ask(&worker, 0, SCENE, 1000);
+    let compiled = gpu.pipelines();
+    for (i, text) in [SCENE.replace("[1, 2, -3]", "[-3, 1, 1]"), SCENE.replace("150", "160")].iter().enumerate() {
+        let drawn = ask(&worker, i as u64 + 1, text, 1000);
+        assert_eq!([drawn.loaded, drawn.prepared], [0, i], "{text}");
+        assert_eq!(gpu.pipelines(), compiled, "{text}");
+    }
+}
+
+/// After a scene that cannot be drawn the next one is drawn.
+#[test]
+fn a_failure_ends_with_the_next_request() {
+    let worker = Worker::new(None, Box::new(|| ()));
+    let missing = SCENE.replace("phantom = { name = \"torus\", size = 24 }", "file = \"none.nrrd\"");
+    let failed = ask(&worker, 1, &missing, 1000).failed.unwrap();
+    assert!(failed.contains("none.nrrd"), "{failed}");
+    assert!(ask(&worker, 2, SCENE, 1000).failed.is_none());
+    let background = SCENE.replace("samples = 1", "samples = 1\nbackground = \"none.png\"");
+    assert!(ask(&worker, 3, &background, 1000).failed.unwrap().contains("none.png"));
+    assert!(ask(&worker, 4, SCENE, 1000).failed.is_none());
+}
