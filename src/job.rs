@@ -69,6 +69,7 @@ use failures::view_failure;
 pub(crate) use failures::{render_failure, shot_failure};
 use iso::find_iso_values;
 pub(crate) use load::known_label;
+pub use load::read_volume;
 use load::{background, lighting_table, load_volume, meshes, named, styles};
 use objects::{Given, Objects};
 pub use painting::Painting;
@@ -280,8 +281,7 @@ impl Job {
         self.assets.styles.iter().find(|style| style.name == name)
     }
 
-    /// Returns the values of nodes of the scene's function and of its objects' functions. Only functions whose nodes
-    /// are in another unit are listed.
+    /// Returns the values of the nodes of those functions, of the scene and of its objects, that are in another unit.
     pub fn node_values(&self) -> Vec<NodesPlan> {
         let own = values_of_nodes(&self.scene, &self.volume, "transfer.unit".into(), None);
         own.into_iter().chain(self.objects.node_values(&self.scene)).collect()

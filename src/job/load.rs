@@ -51,15 +51,13 @@ pub(super) fn load_volume(source: &dyn Source, table: &VolumeTable, given: &Give
     }
 }
 
-impl super::Job {
-    /// Reads or generates the volume of a scene, for [`Job::with_volume_for`](super::Job::with_volume_for). A program
-    /// that edits a scene keeps it while `[volume]` stays the same.
-    ///
-    /// # Errors
-    /// A volume that cannot be read.
-    pub fn read_volume(scene: &Scene, source: &dyn Source) -> Result<Volume, Failure> {
-        load_volume(source, &scene.volume, &scene.given)
-    }
+/// Reads or generates the volume of a scene. A program that edits a scene keeps the volume while `[volume]` stays the
+/// same, and hands it to `Job::with_volume_for`.
+///
+/// # Errors
+/// A volume that cannot be read.
+pub fn read_volume(scene: &Scene, source: &dyn Source) -> Result<Volume, Failure> {
+    load_volume(source, &scene.volume, &scene.given)
 }
 
 /// Reads the further volumes of the transfer function. Errors go to `failures`.

@@ -14,7 +14,7 @@ use crate::present::Presenter;
 use drypoint::drawing::Drawing;
 use drypoint::frames::ReferenceFrames;
 use drypoint::gpu::{Gpu, GpuFrames};
-use drypoint::job::{Job, RenderTarget};
+use drypoint::job::{Job, RenderTarget, read_volume};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::shot::Shot;
@@ -170,7 +170,7 @@ impl Artist {
         let volume = match &self.data {
             Some((table, data)) if *table == scene.volume => Arc::clone(&data.volume),
             _ => {
-                let volume = Arc::new(Job::read_volume(scene, &Disk)?);
+                let volume = Arc::new(read_volume(scene, &Disk)?);
                 let data =
                     Arc::new(VolumeData { histogram: Histogram::new(&volume, BINS), volume: Arc::clone(&volume) });
                 self.data = Some((scene.volume.clone(), Arc::clone(&data)));

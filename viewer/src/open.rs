@@ -84,7 +84,7 @@ mod tests {
     fn a_volume_becomes_the_commands_scene_in_few_lines() {
         let text = "drypoint = 1\n[volume]\nphantom = { name = \"torus\", size = 24 }\n";
         let scene = parse(text, Path::new(""), &Overrides::default()).unwrap();
-        let volume = drypoint::job::Job::read_volume(&scene, &Disk).unwrap();
+        let volume = drypoint::job::read_volume(&scene, &Disk).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("ring.nrrd");
         write_nrrd(&volume, &path).unwrap();
