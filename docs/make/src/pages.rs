@@ -7,8 +7,8 @@ use drypoint::output::read::Image;
 use drypoint::scene::file::{Overrides, is_figure, parse, parse_figure};
 use std::path::{Path, PathBuf};
 
-/// Folders that hold no pages: build outputs, data from elsewhere, and templates, whose links start in `docs/`.
-const WITHOUT_PAGES: [&str; 3] = ["target", "shared", "make"];
+/// Folders that hold no pages: build outputs, and data from elsewhere.
+const WITHOUT_PAGES: [&str; 2] = ["target", "shared"];
 
 /// Every page: all Markdown of the repository, with its text.
 fn pages() -> Vec<(PathBuf, String)> {

@@ -26,4 +26,4 @@ pub(crate) fn write() -> Result<(), String> {
 }
 
 /// The page around its tables, which stand where their names are.
-const PAGE: &str = include_str!("page.md");
+const PAGE: &str = include_str!("page.template");

@@ -35,7 +35,7 @@ pub(crate) fn write() -> Result<(), String> {
 }
 
 /// The page around its table.
-const PAGE: &str = include_str!("page.md");
+const PAGE: &str = include_str!("page.template");
 
 /// Counts and median seconds without an effect and with it.
 fn in_turns(folder: &Folder, effect: &Effect) -> Result<[(Named, f64); 2], String> {

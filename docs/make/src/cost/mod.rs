@@ -127,7 +127,7 @@ fn part(page: &str, from: &str, to: &str) -> Result<String, String> {
 const RUNS: usize = 5;
 
 /// The page around its table of choices.
-const PAGE: &str = include_str!("page.md");
+const PAGE: &str = include_str!("page.template");
 
 /// The page of tables, which stand where their names are.
-const TABLES: &str = include_str!("tables.md");
+const TABLES: &str = include_str!("tables.template");

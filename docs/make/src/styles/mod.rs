@@ -18,7 +18,7 @@ use std::path::Path;
 const LAYOUT: Layout = Layout { columns: Some(7), cell: 96 };
 
 /// The page around its table and its sections, which stand where their names are.
-const PAGE: &str = include_str!("page.md");
+const PAGE: &str = include_str!("page.template");
 
 /// Writes every theme, its sheet, and the page.
 ///
