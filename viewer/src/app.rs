@@ -30,7 +30,7 @@ const LOOK: Duration = Duration::from_secs(1);
 /// Pause after which a further change is undone by itself.
 const PAUSE: Duration = Duration::from_millis(700);
 
-/// What draws the frames.
+/// The adapter or the library that draws the frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Backend {
     /// The card, unless it is software, which is many times slower than the reference.

@@ -14,11 +14,11 @@ pub struct Node {
     pub default: Option<Json>,
     /// Whether its table must have it.
     pub is_required: bool,
-    /// What may stand there.
+    /// The values that the schema allows.
     pub kind: Kind,
 }
 
-/// What may stand at a key.
+/// The kind of values that the schema allows at a key.
 #[derive(Clone, Debug)]
 pub enum Kind {
     /// A table with these keys.

@@ -1,4 +1,4 @@
-//! What is kept between sessions: recent files, the look of the window, and texts that were not saved.
+//! State that is kept between sessions: recent files, the look of the window, and texts that were not saved.
 
 use std::collections::hash_map::DefaultHasher;
 use std::fs;

@@ -8,7 +8,7 @@ use toml_edit::{Array, Item};
 
 /// A value that is edited.
 pub struct Value<'a> {
-    /// What may stand there.
+    /// The values that the schema allows.
     pub kind: &'a ValueKind,
     /// The value in the document, if it is there.
     pub given: Option<Item>,

@@ -26,7 +26,7 @@ fn scene(text: &str) -> Scene {
     parse(text, "ring.toml".as_ref(), &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"))
 }
 
-/// What a thread answered until the exact frame of a request.
+/// Answers of a thread until the exact frame of a request.
 #[derive(Default)]
 struct Answers {
     loaded: usize,

@@ -87,7 +87,7 @@ impl Viewer {
         });
     }
 
-    /// What asks for attention above the picture: faults of the scene, and a text of an earlier session.
+    /// Notices above the picture: faults of the scene, and a text of an earlier session.
     pub(super) fn banners(&mut self, ui: &mut Ui) {
         if let Some(text) = self.recovered.take() {
             let mut is_open = true;
