@@ -1,7 +1,10 @@
-//! Picking: the places in the volume that are seen at pixels ([HALO-12]).
+//! Picking: the places in the volume that are seen at pixels ([HALO-12]), and probing what is there.
 
 use crate::Failure;
+use drypoint_reference::field::{HessianEstimator, Kernel, Reconstruction};
 use drypoint_reference::ray::{Picked, Renderer};
+use drypoint_scene::memory::{self, NoRoom};
+use drypoint_scene::volume::Volume;
 
 /// Returns the point of the picture, in pixels from the top left corner, for a pixel of a scene. Pixels are numbered
 /// from 0, and integers mean centres: pixel [0, 0] is the point [½, ½].
@@ -13,6 +16,17 @@ pub(crate) fn point_of_pixel(pixel: [f64; 2]) -> [f64; 2] {
 /// none if nothing is visible there, or if the pixel is outside the picture.
 pub fn pick_pixel(renderer: &Renderer<'_>, [x, y]: [usize; 2]) -> Option<Picked> {
     renderer.pick(point_of_pixel([x as f64, y as f64]))
+}
+
+/// Checks that there is memory for a field of second derivatives of a volume: for the kernel's coefficients, and for those
+/// of the smoothed volume while it is filtered. Such a field is what [`probe`](drypoint_reference::field::probe) needs.
+///
+/// # Errors
+/// There is not.
+pub fn room_to_probe(volume: &Volume, how: &Reconstruction) -> Result<(), NoRoom> {
+    let prefiltered = matches!(how.kernel, Kernel::Bspline | Kernel::Bspline5);
+    let smoothed = matches!(how.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian);
+    memory::room_for(volume.grid().len() as u64, 8 * u64::from(prefiltered) + 16 * u64::from(smoothed))
 }
 
 /// Checks that a pixel lies in a picture of this size. `place` names the pixel in the failure.

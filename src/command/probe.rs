@@ -4,10 +4,11 @@ use super::input::{self, KeyFlag, SetArgs};
 use super::raw::RawArgs;
 use super::report::{Progress, print};
 use super::{Outcome, Talk};
+use crate::picking::room_to_probe;
 use crate::reference::field::probe::{Probe as Probed, at_index, at_world};
-use crate::reference::field::{Field, HessianEstimator, Kernel, Reconstruction, Rung};
+use crate::reference::field::{Field, HessianEstimator, Reconstruction, Rung};
 use crate::scene::glam::DVec3;
-use crate::scene::memory::{self, Metered};
+use crate::scene::memory::Metered;
 use crate::scene::space::Grid;
 use crate::{Failure, Failures};
 use clap::{Args, ValueEnum};
@@ -88,11 +89,7 @@ impl ProbeArgs {
             scale: sampling.scale.world(volume.grid()).ok_or_else(|| refused(&"--scale is no length in the volume"))?,
             outside: settings.volume.outside,
         };
-        // Bytes a voxel: the kernel's coefficients, and those of the smoothed volume during filtering.
-        let prefiltered = matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5);
-        let smoothed = matches!(sampling.hessian, HessianEstimator::Auto | HessianEstimator::Gaussian);
-        let each = 8 * u64::from(prefiltered) + 16 * u64::from(smoothed);
-        memory::room_for(volume.grid().len() as u64, each).map_err(|no_room| {
+        room_to_probe(&volume, &how).map_err(|no_room| {
             let what = format!("the coefficients of the volume need {no_room}");
             Failure::new(what, self.volume.display(), "crop or downsample the volume first")
         })?;

@@ -13,6 +13,7 @@ use crate::frames::Worker;
 use crate::open;
 use crate::palette::Palette;
 use crate::panels::{self, Panel};
+use crate::probe::Prober;
 use crate::screen::Screen;
 use crate::session::Session;
 use crate::state::State;
@@ -70,11 +71,14 @@ impl Viewer {
     /// [`Gpu::descriptor`].
     pub fn new(ctx: &Context, render: Option<RenderState>, backend: Backend, document: Document, state: State) -> Self {
         let card = render.as_ref().and_then(|render| card(render, backend));
-        let waker = ctx.clone();
-        let worker = Worker::new(card, Box::new(move || waker.request_repaint()));
+        let waker = || -> Box<dyn Fn() + Send> {
+            let ctx = ctx.clone();
+            Box::new(move || ctx.request_repaint())
+        };
+        let (worker, prober) = (Worker::new(card, waker()), Prober::new(waker()));
         let panels = panels::all();
         let tree = layout::tree(panels.len());
-        let session = Session::new(document, Screen::new(render), worker);
+        let session = Session::new(document, Screen::new(render), worker, prober);
         let mut viewer = Self {
             session,
             panels,

@@ -8,8 +8,9 @@
 //! | the volume alone | [`GpuFrames::show`](drypoint::frames::Frames::show) into a texture of the window's device | the reference, in pixels |
 //! | with points, lines or annotations | the volume while the camera moves, then [`Drawing`] | the same |
 
+use crate::background::{Background, Desk};
 use crate::canvas::{self, Canvas, Drawn, Pace, Pixels};
-use crate::mailbox::{Mail, Mailbox};
+use crate::mailbox::Mail;
 use crate::present::Presenter;
 use drypoint::drawing::Drawing;
 use drypoint::frames::ReferenceFrames;
@@ -26,8 +27,6 @@ use drypoint::scene::volume::histogram::Histogram;
 use drypoint::{Failure, Failures};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 /// Bins of a volume's histogram.
@@ -83,48 +82,30 @@ pub enum Answer {
 }
 
 /// A handle of the thread, which ends when it is dropped.
-pub struct Worker {
-    mailbox: Arc<Mailbox<Box<Request>>>,
-    answers: Receiver<Answer>,
-    thread: Option<JoinHandle<()>>,
-}
+pub struct Worker(Background<Box<Request>, Answer>);
 
 impl Worker {
     /// Starts the thread. `wake` is called after each answer, on the thread.
     pub fn new(card: Option<Gpu>, wake: Box<dyn Fn() + Send>) -> Self {
-        let mailbox = Arc::new(Mailbox::new());
-        let (sender, answers) = channel();
-        let (card, mailbox_of) = (card.map(Presenter::new), Arc::clone(&mailbox));
-        let artist =
-            Artist { mailbox: mailbox_of, sender, wake, card, on_card: None, data: None, pace: Pace::default() };
-        let thread = std::thread::Builder::new().name("frames".into()).spawn(|| artist.run()).ok();
-        Self { mailbox, answers, thread }
+        let card = card.map(Presenter::new);
+        let run = |desk| Artist { desk, card, on_card: None, data: None, pace: Pace::default() }.run();
+        Self(Background::new("frames", wake, run))
     }
 
     /// Asks for frames of a scene, in place of all before.
     pub fn ask(&self, request: Request) {
-        self.mailbox.put(Box::new(request));
+        self.0.ask(Box::new(request));
     }
 
     /// Returns the answers since the last call.
     pub fn answers(&self) -> impl Iterator<Item = Answer> + '_ {
-        self.answers.try_iter()
-    }
-}
-
-impl Drop for Worker {
-    fn drop(&mut self) {
-        self.mailbox.close();
-        // A thread that panicked has nothing to hand over.
-        let _ = self.thread.take().map(JoinHandle::join);
+        self.0.answers()
     }
 }
 
 /// The thread's own state.
 struct Artist {
-    mailbox: Arc<Mailbox<Box<Request>>>,
-    sender: Sender<Answer>,
-    wake: Box<dyn Fn() + Send>,
+    desk: Desk<Box<Request>, Answer>,
     card: Option<Presenter>,
     /// Frames on the card, which outlive the jobs that they were made from.
     on_card: Option<Box<GpuFrames>>,
@@ -132,36 +113,17 @@ struct Artist {
     pace: Pace,
 }
 
-/// The end of the work on a job.
-enum Next {
-    Request(Box<Request>),
-    Closed,
-}
-
 impl Artist {
     fn run(mut self) {
-        let mut next = self.wait();
-        while let Next::Request(mut request) = next {
+        let mut next = self.desk.wait();
+        while let Some(mut request) = next {
             request.scene.picture.size = shown_size(&request.scene, request.longest);
             let revision = request.revision;
             let served = self.job(&request.scene).and_then(|job| Ok(self.serve(&job, request)?));
             next = served.unwrap_or_else(|failures| {
-                self.answer(Answer::Failed(revision, failures));
-                self.wait()
+                self.desk.answer(Answer::Failed(revision, failures));
+                self.desk.wait()
             });
-        }
-    }
-
-    fn answer(&self, answer: Answer) {
-        // Nobody listens only while the window closes.
-        let _ = self.sender.send(answer);
-        (self.wake)();
-    }
-
-    fn wait(&self) -> Next {
-        match self.mailbox.take(None) {
-            Mail::Request(request) => Next::Request(request),
-            Mail::Nothing | Mail::Closed => Next::Closed,
         }
     }
 
@@ -174,32 +136,34 @@ impl Artist {
                 let data =
                     Arc::new(VolumeData { histogram: Histogram::new(&volume, BINS), volume: Arc::clone(&volume) });
                 self.data = Some((scene.volume.clone(), Arc::clone(&data)));
-                self.answer(Answer::Loaded(data));
+                self.desk.answer(Answer::Loaded(data));
                 volume
             }
         };
         Job::with_volume_for(scene.clone(), volume, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Draws a job, and the requests after it that only move its camera.
-    fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Next, Failure> {
+    /// Draws a job, and the requests after it that only move its camera. Returns the next request; none if the window is
+    /// closed.
+    fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Option<Box<Request>>, Failure> {
         let mut warnings: Vec<String> = job.plan.warnings.iter().map(ToString::to_string).collect();
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
-        self.answer(Answer::Prepared(Arc::new(job.scene.clone()), warnings));
+        self.desk.answer(Answer::Prepared(Arc::new(job.scene.clone()), warnings));
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {
             let next = match self.draw(job, &mut canvas, &request, is_turned)? {
-                Some(next) => next,
-                None => self.wait(),
+                Mail::Nothing => self.desk.wait(),
+                Mail::Request(newer) => Some(newer),
+                Mail::Closed => None,
             };
-            let Next::Request(mut newer) = next else { return Ok(next) };
+            let Some(mut newer) = next else { return Ok(None) };
             newer.scene.picture.size = shown_size(&newer.scene, newer.longest);
             if !only_turns(&request.scene, &newer.scene) {
                 if let Some(Canvas::Card(frames)) = canvas {
                     self.on_card = Some(frames);
                 }
-                return Ok(Next::Request(newer));
+                return Ok(Some(newer));
             }
             (request, is_turned) = (newer, true);
         }
@@ -220,37 +184,36 @@ impl Artist {
         Ok(Canvas::Memory(Box::new(ReferenceFrames::new(job.renderer()?, &job.scene))))
     }
 
-    /// Draws a request: a coarse frame if an exact one takes long, then the exact one. Returns the next request if it
-    /// came before the end.
+    /// Draws a request: a coarse frame if an exact one takes long, then the exact one. Returns the mail that came before
+    /// the end.
     fn draw(
         &mut self,
         job: &Job,
         canvas: &mut Option<Canvas<'_>>,
         request: &Request,
         is_turned: bool,
-    ) -> Result<Option<Next>, Failure> {
+    ) -> Result<Mail<Box<Request>>, Failure> {
         let on_page = request.scene.draws_on_page();
         if let Some(canvas) = canvas {
             let divisors = self.pace.divisors(canvas.is_slow(self.card.as_ref()));
             for (i, &divisor) in divisors.iter().enumerate() {
                 let is_coarse = divisor > NonZeroUsize::MIN;
-                let drawn = match canvas.turn(&shot(job, request, divisor)?) {
+                let drawn = match canvas.turn(&shot(job, &request.scene.camera, divisor)?) {
                     // Frames with funnels have one size on a card.
                     Err(_) if is_coarse => continue,
-                    turned => turned.and_then(|()| canvas.draw(self.card.as_ref(), self.mailbox.stop()))?,
+                    turned => turned.and_then(|()| canvas.draw(self.card.as_ref(), self.desk.mailbox.stop()))?,
                 };
                 if let Some(Drawn { size, pixels, seconds }) = drawn {
                     self.pace.learn(divisor, seconds);
                     let is_coarse = is_coarse || on_page;
                     let frame = Frame { revision: request.revision, size, pixels, is_coarse, seconds };
-                    self.answer(Answer::Drawn(frame));
+                    self.desk.answer(Answer::Drawn(frame));
                 }
                 if is_coarse || on_page {
                     let rest = if i == 0 { REST } else { Duration::ZERO };
-                    match self.mailbox.take(Some(rest)) {
-                        Mail::Request(newer) => return Ok(Some(Next::Request(newer))),
-                        Mail::Closed => return Ok(Some(Next::Closed)),
+                    match self.desk.mailbox.take(Some(rest)) {
                         Mail::Nothing => {}
+                        mail => return Ok(mail),
                     }
                 }
             }
@@ -258,7 +221,7 @@ impl Artist {
         if on_page || canvas.is_none() {
             self.draw_page(job, request, is_turned)?;
         }
-        Ok(None)
+        Ok(Mail::Nothing)
     }
 
     /// Draws the volume with points, lines and annotations.
@@ -271,7 +234,7 @@ impl Artist {
         let turned = match turned.transpose() {
             Ok(turned) => turned,
             Err(failures) => {
-                self.answer(Answer::Failed(request.revision, failures));
+                self.desk.answer(Answer::Failed(request.revision, failures));
                 return Ok(());
             }
         };
@@ -279,10 +242,10 @@ impl Artist {
         let marking = Marking::new(job, &mut counts, &|_| ())?;
         let card = self.card.as_ref().map(Presenter::gpu);
         let mut drawing = Drawing::on(job, &marking, card, &mut counts)?;
-        let Some((frame, _)) = drawing.frame_until(0, &|_| (), self.mailbox.stop())? else { return Ok(()) };
+        let Some((frame, _)) = drawing.frame_until(0, &|_| (), self.desk.mailbox.stop())? else { return Ok(()) };
         let (size, pixels) = canvas::codes(&frame.painted(job)?)?;
         let seconds = start.elapsed().as_secs_f64();
-        self.answer(Answer::Drawn(Frame { revision: request.revision, size, pixels, is_coarse: false, seconds }));
+        self.desk.answer(Answer::Drawn(Frame { revision: request.revision, size, pixels, is_coarse: false, seconds }));
         Ok(())
     }
 }
@@ -300,7 +263,7 @@ fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
 
 /// Whether a scene differs from the one before it in the place and the direction of its camera alone, and nothing is found
 /// at a pixel.
-fn only_turns(before: &Scene, after: &Scene) -> bool {
+pub(crate) fn only_turns(before: &Scene, after: &Scene) -> bool {
     let picks = before.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
         || before.objects.iter().any(|object| object.strokes.is_some());
     let Camera { projection, near, .. } = after.camera;
@@ -308,10 +271,10 @@ fn only_turns(before: &Scene, after: &Scene) -> bool {
     !picks && Scene { camera, ..after.clone() } == *before
 }
 
-/// Returns the shot of a job from a request's camera, with sides divided by `divisor`.
-fn shot(job: &Job, request: &Request, divisor: NonZeroUsize) -> Result<Shot, Failure> {
+/// Returns the shot of a job from another camera, with sides divided by `divisor`.
+pub(crate) fn shot(job: &Job, camera: &Camera, divisor: NonZeroUsize) -> Result<Shot, Failure> {
     let shot = if divisor == NonZeroUsize::MIN { job.shot() } else { job.coarse_shot(divisor) }?;
-    let view = View::new(&request.scene.camera, job.volume.grid(), shot.view.size);
+    let view = View::new(camera, job.volume.grid(), shot.view.size);
     let view = view.map_err(|error| Failure::new(error, "camera", "undo the last change"))?;
     Ok(shot.seen_from(view))
 }

@@ -5,12 +5,14 @@
 //! | [`document`] | the scene file: its text, changes by key, undo, saving |
 //! | [`session`] | the document with its scene, its volume, its frame; what panels share |
 //! | [`frames`] | the thread that draws |
+//! | [`probe`] | the thread that tells what is seen at a pixel |
 //! | [`camera`] | moves of the camera in closed form |
 //! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
 //! | [`commands`] | the list that menus, keys and the palette share |
 //! | [`export`] | the reference's picture, in the background |
 
 pub mod app;
+mod background;
 pub mod camera;
 pub mod canvas;
 pub mod commands;
@@ -27,7 +29,9 @@ pub mod open;
 mod palette;
 pub mod panels;
 pub mod picture;
+mod pointer;
 mod present;
+pub mod probe;
 pub mod schema;
 pub mod screen;
 pub mod session;

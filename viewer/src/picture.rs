@@ -5,8 +5,10 @@
 //! | drag | turns |
 //! | drag with Shift, or with the middle button | moves |
 //! | drag with the right button, wheel, pinch | nearer and further |
+//! | rest, click | see [`pointer`] |
 
 use crate::panels::{Panel, PictureArea};
+use crate::pointer;
 use crate::session::Session;
 use eframe::egui::{self, Color32, PointerButton, Rect, Sense, Ui, Vec2, pos2};
 
@@ -53,6 +55,7 @@ pub fn picture(ui: &mut Ui, session: &mut Session, panels: &mut [Box<dyn Panel>]
     for panel in panels {
         is_taken |= panel.over_picture(ui, &picture, session);
     }
+    pointer::point(ui, session, &picture, is_taken);
     if !is_taken {
         drag(ui, session, &picture);
     }

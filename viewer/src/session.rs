@@ -4,7 +4,9 @@ use crate::camera::Pose;
 use crate::document::{Document, Edit};
 use crate::frames::{Answer, Request, VolumeData, Worker};
 use crate::key::KeyPath;
+use crate::probe::{PixelQuery, PixelReport, Prober};
 use crate::screen::Screen;
+use drypoint::scene::glam::DVec3;
 use drypoint::scene::tables::Scene;
 use drypoint::{Failure, Failures};
 use eframe::egui::{self, TextureId};
@@ -46,16 +48,25 @@ pub struct Session {
     pub longest: usize,
     /// A sentence about the last command, for the status line.
     pub notice: String,
+    /// The cross-hair in the world, which the picture and the slices share. Like the pointer, it is no part of the scene.
+    pub cross: Option<DVec3>,
+    /// The last answer about a pixel.
+    pub probed: Option<PixelReport>,
     screen: Screen,
     worker: Worker,
+    prober: Prober,
+    /// The last question about a pixel: the scene's serial number, and the pixel.
+    questioned: Option<(u64, [usize; 2])>,
+    /// Whether the place of a click is not yet known.
+    awaits_click: bool,
     serial: u64,
     /// The document's revision that was read, and the size that was asked for.
     asked: Option<(u64, usize)>,
 }
 
 impl Session {
-    /// A session of a document, whose frames a thread draws.
-    pub fn new(document: Document, screen: Screen, worker: Worker) -> Self {
+    /// A session of a document. One thread draws its frames, another tells what is seen at pixels.
+    pub fn new(document: Document, screen: Screen, worker: Worker, prober: Prober) -> Self {
         Self {
             document,
             scene: None,
@@ -66,8 +77,13 @@ impl Session {
             shown: None,
             longest: 2048,
             notice: String::new(),
+            cross: None,
+            probed: None,
             screen,
             worker,
+            prober,
+            questioned: None,
+            awaits_click: false,
             serial: 0,
             asked: None,
         }
@@ -78,6 +94,7 @@ impl Session {
         self.document = document;
         self.asked = None;
         (self.scene, self.prepared, self.failures) = (None, None, None);
+        (self.cross, self.probed, self.awaits_click) = (None, None, false);
         self.notice.clear();
     }
 
@@ -115,6 +132,32 @@ impl Session {
                 Answer::Failed(..) => {}
             }
         }
+        let reports: Vec<PixelReport> = self.prober.answers().collect();
+        reports.into_iter().for_each(|report| self.take_report(report));
+    }
+
+    /// Asks what is seen at a pixel of the scene's picture; with `is_click` the cross-hair moves there.
+    pub fn ask_pixel(&mut self, pixel: [usize; 2], is_click: bool) {
+        let (Some(scene), Some(data)) = (self.scene.clone(), &self.data) else { return };
+        let question = (self.serial, pixel);
+        // A click is not given up for a pointer that rests.
+        if is_click || !self.awaits_click && self.questioned != Some(question) {
+            self.questioned = Some(question);
+            self.awaits_click = is_click;
+            let (serial, volume) = (self.serial, Arc::clone(&data.volume));
+            self.prober.ask(PixelQuery { serial, scene, volume, pixel, is_click });
+        }
+    }
+
+    fn take_report(&mut self, report: PixelReport) {
+        if report.is_click && std::mem::take(&mut self.awaits_click) {
+            match &report.place {
+                Ok(Some(place)) => self.cross = Some(place.picked.world),
+                Ok(None) => self.notice = "Nothing is seen there".into(),
+                Err(failures) => self.notice = failures.to_string(),
+            }
+        }
+        self.probed = Some(report);
     }
 
     /// Returns a number that grows with every scene that was read.
