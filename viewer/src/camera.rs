@@ -178,8 +178,13 @@ pub fn rounded(x: f64, decimals: i32) -> f64 {
     if rounded.is_finite() { rounded + 0.0 } else { x }
 }
 
+/// A point of the world with decimals to a thousandth of a voxel.
+pub(crate) fn place(p: DVec3, grid: &Grid) -> Value {
+    numbers(p, 3 - grid.voxel().log10().floor() as i32)
+}
+
 /// A list of three numbers, whole ones without a point.
-fn numbers(v: DVec3, decimals: i32) -> Value {
+pub(crate) fn numbers(v: DVec3, decimals: i32) -> Value {
     Value::Array(v.to_array().into_iter().map(|x| number(rounded(x, decimals))).collect::<Array>())
 }
 

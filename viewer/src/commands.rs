@@ -16,6 +16,10 @@ pub enum Action {
     SaveAs,
     /// Renders the picture with the reference into a file.
     Export,
+    /// Focuses the halos on the cross-hair.
+    FocusHalos,
+    /// Removes the cross-hair.
+    RemoveCross,
     /// Copies the picture that is shown.
     Copy,
     /// Closes the window.
@@ -83,6 +87,7 @@ pub const COMMANDS: &[Command] = &[
     command("Edit", "Redo", Some((SHIFT, Key::Z)), Action::Redo),
     command("Edit", "Undo", Some((CTRL, Key::Z)), Action::Undo),
     command("Edit", "Copy the picture", Some((SHIFT, Key::C)), Action::Copy),
+    command("Edit", "Focus halos at the cross-hair", Some((CTRL, Key::H)), Action::FocusHalos),
     command("View", "All commands…", Some((CTRL, Key::P)), Action::Palette),
     command("View", "From the front", Some((NONE, Key::Num1)), Action::Look(Side::Front)),
     command("View", "From the back", Some((NONE, Key::Num2)), Action::Look(Side::Back)),
@@ -98,6 +103,7 @@ pub const COMMANDS: &[Command] = &[
     command("View", "Turn down", Some((NONE, Key::ArrowDown)), Action::Turn(0, -1)),
     command("View", "Nearer", Some((NONE, Key::PageUp)), Action::Dolly(-1)),
     command("View", "Further", Some((NONE, Key::PageDown)), Action::Dolly(1)),
+    command("View", "Remove the cross-hair", Some((NONE, Key::Delete)), Action::RemoveCross),
     command("View", "Dark or light", Some((CTRL, Key::T)), Action::Theme),
     command("View", "Larger text", Some((CTRL, Key::Plus)), Action::Scale(1)),
     command("View", "Smaller text", Some((CTRL, Key::Minus)), Action::Scale(-1)),

@@ -46,6 +46,8 @@ impl Viewer {
             Action::Undo => self.session.document.history().next_undo().is_some(),
             Action::Redo => self.session.document.history().next_redo().is_some(),
             Action::Export => self.session.scene.is_some() && self.export.is_none(),
+            Action::FocusHalos => self.session.cross.is_some() && self.session.document.get(&"halo".into()).is_some(),
+            Action::RemoveCross => self.session.cross.is_some(),
             Action::Copy => self.session.shown.is_some(),
             _ => true,
         }

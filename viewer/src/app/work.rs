@@ -5,6 +5,7 @@ use crate::camera::Side;
 use crate::commands::Action;
 use crate::document::Edit;
 use crate::export::Export;
+use crate::focus::focus;
 use crate::open;
 use drypoint::scene::tables::{Camera, Projection};
 use eframe::egui::{Context, ViewportCommand};
@@ -31,6 +32,13 @@ impl Viewer {
             Action::SaveAs => self.dialogs.save_as(session.document.path()),
             Action::Export => self.dialogs.export(session.document.path()),
             Action::Copy => session.image().into_iter().for_each(|image| ctx.copy_image(image)),
+            Action::FocusHalos => {
+                if let (Some(at), Some(scene), Some(data)) = (session.cross, &session.scene, &session.data) {
+                    let edits = focus(scene, data.volume.grid(), at);
+                    session.edit("focus the halos", edits);
+                }
+            }
+            Action::RemoveCross => session.cross = None,
             Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Action::Undo => drop(session.document.undo()),
             Action::Redo => drop(session.document.redo()),

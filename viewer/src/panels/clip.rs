@@ -1,7 +1,7 @@
 //! Clip planes: a slider through the volume for each, its direction, and a handle on the picture.
 
 use super::{Panel, PictureArea};
-use crate::camera::{number, rounded};
+use crate::camera::{numbers, place};
 use crate::document::Edit;
 use crate::key::KeyPath;
 use crate::session::Session;
@@ -9,7 +9,7 @@ use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Clip, ClipSpace};
 use eframe::egui::{self, Color32, Sense, Slider, Stroke, Ui, Vec2};
-use toml_edit::{Array, InlineTable, Value};
+use toml_edit::InlineTable;
 
 /// The panel of clip planes.
 pub(super) struct ClipPanel;
@@ -128,12 +128,12 @@ fn plane_ui(ui: &mut Ui, session: &mut Session, i: usize, clip: &Clip, plane: Pl
         if ui.button("Flip").clicked()
             && let Some(given) = clip.normal
         {
-            session.set(&normal, list(-given, 6));
+            session.set(&normal, numbers(-given, 6));
         }
         if ui.button("Across the view").clicked()
             && let (Some(pose), ClipSpace::World) = (session.pose(), clip.space)
         {
-            session.set(&normal, list(-pose.view.forward, 6));
+            session.set(&normal, numbers(-pose.view.forward, 6));
         }
     });
 }
@@ -141,24 +141,15 @@ fn plane_ui(ui: &mut Ui, session: &mut Session, i: usize, clip: &Clip, plane: Pl
 /// Moves the point of a clip to a place in the world.
 fn set_point(session: &mut Session, i: usize, clip: &Clip, point: DVec3, grid: &Grid) {
     let point = match clip.space {
-        ClipSpace::World => point,
-        ClipSpace::Index => grid.to_index(point),
+        ClipSpace::World => place(point, grid),
+        // A thousandth of a voxel.
+        ClipSpace::Index => numbers(grid.to_index(point), 3),
     };
-    // A thousandth of a voxel.
-    let decimals = match clip.space {
-        ClipSpace::World => 3 - grid.voxel().log10().floor() as i32,
-        ClipSpace::Index => 3,
-    };
-    session.set(&KeyPath::from("clip").item(i).name("point"), list(point, decimals));
+    session.set(&KeyPath::from("clip").item(i).name("point"), point);
 }
 
 /// Adds a plane through the middle of the volume.
 fn add(session: &mut Session, index: usize, normal: DVec3, grid: &Grid) {
-    let decimals = 3 - grid.voxel().log10().floor() as i32;
-    let table = InlineTable::from_iter([("normal", list(normal, 6)), ("point", list(grid.centre(), decimals))]);
+    let table = InlineTable::from_iter([("normal", numbers(normal, 6)), ("point", place(grid.centre(), grid))]);
     session.edit("add a clip plane", vec![Edit::Insert("clip".into(), index, table)]);
-}
-
-fn list(v: DVec3, decimals: i32) -> Value {
-    Value::Array(v.to_array().into_iter().map(|x| number(rounded(x, decimals))).collect::<Array>())
 }

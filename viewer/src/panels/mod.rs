@@ -5,6 +5,7 @@
 mod clip;
 mod functions;
 pub mod keys;
+mod slices;
 
 use crate::session::Session;
 use eframe::egui::{Rect, Response, Ui, pos2};
@@ -60,6 +61,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
     vec![
         Box::new(functions::FunctionsPanel::default()),
         Box::new(clip::ClipPanel),
+        Box::new(slices::SlicesPanel::default()),
         Box::new(keys::KeysPanel::default()),
     ]
 }
