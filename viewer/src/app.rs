@@ -70,15 +70,16 @@ impl Viewer {
     /// A window over a document. The device of `render` is shared with the thread that draws. It has the features of
     /// [`Gpu::descriptor`].
     pub fn new(ctx: &Context, render: Option<RenderState>, backend: Backend, document: Document, state: State) -> Self {
-        let card = render.as_ref().and_then(|render| card(render, backend));
+        let [drawing, comparing] =
+            [backend, Backend::Card].map(|backend| render.as_ref().and_then(|render| card(render, backend)));
         let waker = || -> Box<dyn Fn() + Send> {
             let ctx = ctx.clone();
             Box::new(move || ctx.request_repaint())
         };
-        let (worker, prober) = (Worker::new(card, waker()), Prober::new(waker()));
+        let (worker, prober) = (Worker::new(drawing, waker()), Prober::new(waker()));
         let panels = panels::all();
         let tree = layout::tree(panels.len());
-        let session = Session::new(document, Screen::new(render), worker, prober);
+        let session = Session::new(document, Screen::new(render), comparing, worker, prober);
         let mut viewer = Self {
             session,
             panels,
@@ -235,7 +236,7 @@ impl Viewer {
     }
 }
 
-/// Returns the card of a window's device, if it is to draw the frames. OpenGL lacks what the shaders need.
+/// Returns the card of a window's device, if a back end draws with it. OpenGL lacks what the shaders need.
 fn card(render: &RenderState, backend: Backend) -> Option<Gpu> {
     let info = render.adapter.get_info();
     let is_there = info.backend != wgpu::Backend::Gl && backend != Backend::Reference;

@@ -16,6 +16,7 @@ mod background;
 pub mod camera;
 pub mod canvas;
 pub mod commands;
+pub mod compare;
 mod dialogs;
 pub mod document;
 pub mod edit;

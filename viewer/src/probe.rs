@@ -77,7 +77,7 @@ impl ProbedPlace {
         let place = self.picked.world.to_array().map(short).join(", ");
         let mut lines = vec![["place".into(), place], ["value".into(), short(self.picked.value)]];
         if let Some(Derivatives { magnitude, k1, k2 }) = self.derivatives {
-            let numbers = [("|∇f|", magnitude), ("κ1", k1), ("κ2", k2)];
+            let numbers = [("|grad f|", magnitude), ("κ1", k1), ("κ2", k2)];
             lines.extend(numbers.map(|(name, number)| [name.into(), short(number)]));
         }
         if let Some(id) = self.picked.label {

@@ -6,6 +6,7 @@ use crate::frames::{Answer, Request, VolumeData, Worker};
 use crate::key::KeyPath;
 use crate::probe::{PixelQuery, PixelReport, Prober};
 use crate::screen::Screen;
+use drypoint::gpu::Gpu;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::tables::Scene;
 use drypoint::{Failure, Failures};
@@ -46,6 +47,8 @@ pub struct Session {
     pub shown: Option<Shown>,
     /// Most pixels of the longer side of a frame.
     pub longest: usize,
+    /// The card of the window's device, if it draws scenes; it may be software.
+    pub card: Option<Gpu>,
     /// A sentence about the last command, for the status line.
     pub notice: String,
     /// The cross-hair in the world, which the picture and the slices share. Like the pointer, it is no part of the scene.
@@ -66,7 +69,7 @@ pub struct Session {
 
 impl Session {
     /// A session of a document. One thread draws its frames, another tells what is seen at pixels.
-    pub fn new(document: Document, screen: Screen, worker: Worker, prober: Prober) -> Self {
+    pub fn new(document: Document, screen: Screen, card: Option<Gpu>, worker: Worker, prober: Prober) -> Self {
         Self {
             document,
             scene: None,
@@ -76,6 +79,7 @@ impl Session {
             warnings: Vec::new(),
             shown: None,
             longest: 2048,
+            card,
             notice: String::new(),
             cross: None,
             probed: None,
@@ -116,7 +120,13 @@ impl Session {
         let answers: Vec<Answer> = self.worker.answers().collect();
         for answer in answers {
             match answer {
-                Answer::Loaded(data) => self.data = Some(data),
+                Answer::Loaded(data) => {
+                    let grid = data.volume.grid();
+                    let [lo, hi] = grid.index_box();
+                    let is_inside = |at: DVec3| at.cmpge(lo).all() && at.cmple(hi).all();
+                    self.cross = self.cross.filter(|cross| is_inside(grid.to_index(*cross)));
+                    self.data = Some(data);
+                }
                 Answer::Prepared(scene, warnings) => (self.prepared, self.warnings) = (Some(scene), warnings),
                 Answer::Drawn(frame) => {
                     let (size, is_coarse, seconds, serial) =

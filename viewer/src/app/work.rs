@@ -32,12 +32,13 @@ impl Viewer {
             Action::SaveAs => self.dialogs.save_as(session.document.path()),
             Action::Export => self.dialogs.export(session.document.path()),
             Action::Copy => session.image().into_iter().for_each(|image| ctx.copy_image(image)),
-            Action::FocusHalos => {
-                if let (Some(at), Some(scene), Some(data)) = (session.cross, &session.scene, &session.data) {
+            Action::FocusHalos => match (session.cross, &session.scene, &session.data) {
+                (Some(at), Some(scene), Some(data)) => {
                     let edits = focus(scene, data.volume.grid(), at);
                     session.edit("focus the halos", edits);
                 }
-            }
+                _ => session.notice = "A click in the picture tells where the focus is".into(),
+            },
             Action::RemoveCross => session.cross = None,
             Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Action::Undo => drop(session.document.undo()),

@@ -3,6 +3,7 @@
 //! A further panel is a type with [`Panel`] and an entry in [`all`].
 
 mod clip;
+mod compare;
 mod functions;
 pub mod keys;
 mod slices;
@@ -63,5 +64,6 @@ pub fn all() -> Vec<Box<dyn Panel>> {
         Box::new(clip::ClipPanel),
         Box::new(slices::SlicesPanel::default()),
         Box::new(keys::KeysPanel::default()),
+        Box::new(compare::ComparePanel::default()),
     ]
 }

@@ -6,7 +6,9 @@ use crate::session::Session;
 use crate::slice::SlicePlane;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::volume::info::short;
-use eframe::egui::{self, Align2, Color32, FontId, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2};
+use eframe::egui::{
+    self, Align2, Color32, FontId, Rect, Sense, Stroke, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+};
 use std::sync::Arc;
 
 /// Points of the wheel for a slice: those of one notch.
@@ -133,7 +135,8 @@ impl SlicesPanel {
         let is_moved = response.clicked() || response.dragged_by(egui::PointerButton::Primary);
         let at = response.interact_pointer_pos().filter(|_| is_moved)?;
         let point = (at - rect.min) / rect.size() * pixels;
-        let pixel = [(point.x, width), (point.y, height)].map(|(x, side)| (x.max(0.0) as usize).min(side.saturating_sub(1)));
+        let pixel =
+            [(point.x, width), (point.y, height)].map(|(x, side)| (x.max(0.0) as usize).min(side.saturating_sub(1)));
         Some(DVec3::from_array(plane.voxel(pixel, k).map(|n| n as f64)))
     }
 }

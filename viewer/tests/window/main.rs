@@ -1,5 +1,8 @@
 //! The window on software Vulkan: what a user does, and what the document and the picture are afterwards.
 
+mod compare;
+mod places;
+
 use drypoint::gpu::{Gpu, wgpu};
 use drypoint::output::read::read_image;
 use drypoint::scene::color::linear_to_srgb;
@@ -72,7 +75,7 @@ fn window(text: &str, backend: Backend) -> Option<Window> {
         });
         viewer.ui(ui);
     };
-    let builder = Harness::builder().with_size(Vec2::new(900.0, 600.0)).with_step_dt(1.0 / 60.0);
+    let builder = Harness::builder().with_size(Vec2::new(1200.0, 760.0)).with_step_dt(1.0 / 60.0);
     let mut window = builder.renderer(WgpuTestRenderer::from_render_state(render)).build_ui_state(show, None);
     settle(&mut window);
     Some(window)
@@ -351,12 +354,30 @@ fn an_export_is_the_commands_picture() {
     assert!(std::fs::read(&exported).unwrap() == std::fs::read(&rendered).unwrap());
 }
 
-/// Runs the command, which is built beside the tests of the workspace.
-fn command(arguments: &[&str]) {
+/// Runs passes until something is there.
+fn wait_for<T>(window: &mut Window, what: &str, find: impl Fn(&Window) -> Option<T>) -> T {
+    let start = Instant::now();
+    loop {
+        window.step();
+        if let Some(found) = find(window) {
+            return found;
+        }
+        assert!(start.elapsed() < Duration::from_secs(120), "{what}: {}", viewer(window).session.notice);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+fn click(window: &mut Window, at: Pos2) {
+    drag(window, PointerButton::Primary, at, at, Modifiers::NONE);
+}
+
+/// Runs the command, which is built beside the tests of the workspace. Returns what it prints.
+fn command(arguments: &[&str]) -> String {
     let here = std::env::current_exe().unwrap();
     let name = Path::new("drypoint").with_extension(std::env::consts::EXE_EXTENSION);
     let program = here.ancestors().skip(2).map(|folder| folder.join(&name)).find(|program| program.is_file());
     let program = program.expect("the command is built with cargo build --release");
-    let status = std::process::Command::new(program).arg("-q").args(arguments).status().unwrap();
-    assert!(status.success());
+    let run = std::process::Command::new(program).arg("-q").args(arguments).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    String::from_utf8(run.stdout).unwrap()
 }

@@ -1,0 +1,68 @@
+//! The reference against the card on the scene as it stands, at a reduced size, in the background: `drypoint validate`.
+
+use drypoint::gpu::Gpu;
+use drypoint::job::{Job, RenderTarget};
+use drypoint::output::compare::difference::difference_picture;
+use drypoint::output::compare::{CompareOptions, flip};
+use drypoint::output::png::rgba_codes;
+use drypoint::output::read::Image;
+use drypoint::scene::source::Disk;
+use drypoint::scene::tables::Scene;
+use drypoint::scene::volume::Volume;
+use drypoint::validate::{Validation, validate};
+use drypoint::{Failure, Failures};
+use eframe::egui::ColorImage;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+/// A comparison of the card with the reference.
+pub struct Comparison {
+    /// The figures.
+    pub found: Validation,
+    /// The picture of the difference (FLIP): black for none.
+    pub difference: ColorImage,
+}
+
+/// A comparison that runs in the background.
+pub struct Comparing {
+    end: Receiver<Result<Comparison, Failures>>,
+}
+
+impl Comparing {
+    /// Starts to compare. `wake` is called at the end, on the thread.
+    pub fn start(scene: Scene, volume: Arc<Volume>, card: Gpu, wake: Box<dyn Fn() + Send>) -> Self {
+        let (sender, end) = channel();
+        std::thread::spawn(move || {
+            // The window may be closed.
+            let _ = sender.send(compare(scene, volume, &card));
+            wake();
+        });
+        Self { end }
+    }
+
+    /// Returns the outcome, once there is one.
+    pub fn end(&self) -> Option<Result<Comparison, Failures>> {
+        match self.end.try_recv() {
+            Ok(end) => Some(end),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => {
+                let what = "the comparison did not come to its end";
+                Some(Err(Failure::new(what, "the card", "compare with drypoint validate").into()))
+            }
+        }
+    }
+}
+
+/// Compares a card with the reference on a scene.
+///
+/// # Errors
+/// The errors of [`Job::with_volume_for`] and of [`validate`].
+pub fn compare(scene: Scene, volume: Arc<Volume>, card: &Gpu) -> Result<Comparison, Failures> {
+    let job = Job::with_volume_for(scene, volume, RenderTarget::Picture, Arc::new(Disk))?;
+    let found = validate(&job, card)?;
+    let [a, b] = found.pictures.each_ref().map(Image::from);
+    let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree);
+    let map = map.map_err(|error| Failure::picture(&error, "the difference"))?;
+    let bytes = rgba_codes(&difference_picture(&map), 8).map_err(|error| Failure::picture(&error, "the difference"))?;
+    Ok(Comparison { difference: ColorImage::from_rgba_unmultiplied([map.width, map.height], &bytes), found })
+}
