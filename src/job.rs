@@ -38,6 +38,7 @@ mod parts;
 mod provenance;
 mod room;
 mod target;
+mod value_colors;
 
 use crate::labels::SceneLabels;
 use crate::{Failure, Failures, Format};

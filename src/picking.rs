@@ -4,6 +4,7 @@ use crate::Failure;
 use drypoint_reference::field::{HessianEstimator, Kernel, Reconstruction};
 use drypoint_reference::ray::{Picked, Renderer};
 use drypoint_scene::memory::{self, NoRoom};
+use drypoint_scene::space::Grid;
 use drypoint_scene::volume::Volume;
 
 /// Returns the point of the picture, in pixels from the top left corner, for a pixel of a scene. Pixels are numbered
@@ -16,6 +17,13 @@ pub(crate) fn point_of_pixel(pixel: [f64; 2]) -> [f64; 2] {
 /// none if nothing is visible there, or if the pixel is outside the picture.
 pub fn pick_pixel(renderer: &Renderer<'_>, [x, y]: [usize; 2]) -> Option<Picked> {
     renderer.pick(point_of_pixel([x as f64, y as f64]))
+}
+
+/// Returns the lengths `inner` and `falloff` of a halo's focus that suit a volume, to two digits: the halo is full within an
+/// eighth of the volume's radius, and gone at three eighths.
+pub fn focus_lengths(grid: &Grid) -> [f64; 2] {
+    let two_digits = |length: f64| format!("{length:.1e}").parse().unwrap_or(length);
+    [8.0, 4.0].map(|part| two_digits(grid.radius() / part))
 }
 
 /// Checks that there is memory for a field of second derivatives of a volume: for the kernel's coefficients, and for those
@@ -49,6 +57,14 @@ pub fn pixel_inside([x, y]: [i64; 2], size: [usize; 2], place: &str) -> Result<[
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Of 0.00987 an eighth is 0.00123375, and a quarter 0.0024675.
+    #[test]
+    fn foci_have_two_digits() {
+        let side = 2.0 * 0.00987 / 3f64.sqrt();
+        let grid = Grid::with_spacing([2; 3], [side; 3]).unwrap();
+        assert_eq!(focus_lengths(&grid), [0.0012, 0.0025]);
+    }
 
     #[test]
     fn pixels_outside_are_told_with_the_size() {

@@ -82,6 +82,19 @@ impl VoxelColors<'_> {
         Ok(points.voxels.iter().map(of).collect())
     }
 
+    /// The function's colour at each of some values, whatever its opacity; styles face the eye as in [`of`](Self::of). Of a
+    /// function over two quantities it is that of the first row.
+    ///
+    /// # Errors
+    /// The nodes do not make a function.
+    pub fn at_values(&self, values: &[f64]) -> Result<Vec<Rgb>, NodesError> {
+        let (at, _, rows) = self.function.nodes();
+        let first = rows.and_then(|rows| rows.spans(at.len()).next()).unwrap_or(0..at.len());
+        let spheres = Spheres::new(self.styles, self.mix);
+        let line = self.line(first, &spheres)?;
+        Ok(values.iter().map(|&value| line.at(value, &spheres)).collect())
+    }
+
     fn line(&self, nodes: std::ops::Range<usize>, spheres: &Spheres<f64>) -> Result<ColorRow, NodesError> {
         let (at, opacity, _) = self.function.nodes();
         let (at, opacity) = (&at[nodes.clone()], &opacity[nodes.clone()]);
@@ -237,6 +250,15 @@ mod tests {
         let found = of(&function, &[], false, &[0.0, 0.25, 0.5, 0.75, 1.0]);
         assert_eq!(found, [RED, RED, [0.5, 0.0, 0.5], BLUE, BLUE]);
         assert_eq!(of(&function, &[], true, &[0.0]), [BLUE]);
+        let colors = VoxelColors {
+            function: &function,
+            styles: &[],
+            mix: Mix::Premultiplied,
+            labels: None,
+            by_label: false,
+            range: [0.0, 1.0],
+        };
+        assert_eq!(colors.at_values(&[50.0, 150.0, 300.0]), Ok(vec![RED, [0.5, 0.0, 0.5], BLUE]));
     }
 
     /// The middle of a picture with an odd side is a texel's centre, whatever lies at its border.

@@ -4,7 +4,7 @@ use super::input::{self, KeyFlag, SceneOverrides, SetArgs, TemplateArgs};
 use super::raw::RawArgs;
 use super::report::{Progress, print, print_json};
 use super::{Outcome, Talk};
-use crate::picking::{pick_pixel, pixel_inside};
+use crate::picking::{focus_lengths, pick_pixel, pixel_inside};
 use crate::reference::ray::Picked;
 use crate::scene::glam::DVec3;
 use crate::scene::space::Grid;
@@ -127,8 +127,7 @@ fn text(picked: &[([usize; 2], Option<Picked>)], names: &LabelNames, grid: &Grid
         text.pop();
         return text;
     }
-    // The halo is full within an eighth of the volume's radius, and gone at three eighths.
-    let [inner, falloff] = [8.0, 4.0].map(|part| rounded(grid.radius() / part));
+    let [inner, falloff] = focus_lengths(grid).map(short);
     let places = places.join(", ");
     let _ = writeln!(text, "[[halo]]   seed.focus = {{ at = [{places}], inner = {inner}, falloff = {falloff} }}");
     text
@@ -174,11 +173,6 @@ fn coordinate(x: f64, unit: f64) -> String {
     if is_near { text } else { format!("{x:?}") }
 }
 
-/// Returns a length with two digits.
-fn rounded(length: f64) -> String {
-    format!("{length:.1e}").parse().map_or_else(|_| short(length), short)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -196,6 +190,5 @@ mod tests {
         assert_eq!((coordinate(12.25, 1.0), coordinate(1.0 / 3.0, 1.0)), ("12.25".into(), "0.333333".into()));
         assert_eq!((coordinate(1e6 + 0.123, 1.0), coordinate(1e-7, 1e-7)), ("1000000.123".into(), "1.00000e-7".into()));
         assert_eq!((coordinate(-1e-17, 1.0), coordinate(-0.0, 1.0)), ("0".into(), "0".into()));
-        assert_eq!((rounded(21.65), rounded(0.001234)), ("22".into(), "0.0012".into()));
     }
 }

@@ -41,6 +41,7 @@ pub(crate) fn set(document: &mut DocumentMut, key: &KeyPath, value: Value) -> Re
     let parent = walk(document, way, key)?;
     match last {
         KeyStep::Name(name) => {
+            let end = parent.as_inline_table_mut().and_then(take_end);
             let table = parent.as_table_like_mut().ok_or_else(|| no_table(key))?;
             match table.get_mut(name) {
                 Some(Item::Value(old)) => replace(old, value),
@@ -48,6 +49,9 @@ pub(crate) fn set(document: &mut DocumentMut, key: &KeyPath, value: Value) -> Re
                 None => {
                     table.insert(name, Item::Value(value));
                 }
+            }
+            if let (Some(end), Some(table)) = (end, parent.as_inline_table_mut()) {
+                put_end(table, &end);
             }
         }
         KeyStep::Item(index) => {
@@ -172,6 +176,21 @@ fn set_space(array: &mut Array, index: usize, space: String) {
 fn split(space: &str) -> [String; 2] {
     let (before, after) = space.split_at(space.find('\n').unwrap_or(space.len()));
     [before.into(), after.into()]
+}
+
+/// Takes the space after the last value of an inline table.
+fn take_end(table: &mut InlineTable) -> Option<String> {
+    let decor = table.iter_mut().last()?.1.decor_mut();
+    let end = decor.suffix().and_then(|raw| raw.as_str()).unwrap_or_default().to_owned();
+    decor.set_suffix("");
+    Some(end)
+}
+
+/// Puts space after the last value of an inline table.
+fn put_end(table: &mut InlineTable, end: &str) {
+    if let Some((_, last)) = table.iter_mut().last() {
+        last.decor_mut().set_suffix(end);
+    }
 }
 
 /// Walks to the item that holds the last step of a key. Tables on the way are made.

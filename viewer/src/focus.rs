@@ -1,16 +1,16 @@
 //! Focus of halos at a place of the volume.
 
-use crate::camera::{self, number, rounded};
+use crate::camera::{self, number};
 use crate::document::Edit;
 use crate::key::KeyPath;
+use drypoint::picking::focus_lengths;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::Scene;
 use toml_edit::{Array, InlineTable};
 
 /// Returns the edits that focus halos on a place in the world: those halos that have a focus, or all if none has one. A new
-/// focus is full within an eighth of the volume's radius and gone at three eighths, as `drypoint pick` suggests. A halo
-/// that is seeded by the opacity stays so.
+/// focus has the lengths that `drypoint pick` suggests. A halo that is seeded by the opacity stays so.
 pub fn focus(scene: &Scene, grid: &Grid, at: DVec3) -> Vec<Edit> {
     let has_focus = scene.halos.iter().any(|halo| halo.seed.focus.is_some());
     let place = Array::from_iter([camera::place(at, grid)]);
@@ -25,7 +25,7 @@ pub fn focus(scene: &Scene, grid: &Grid, at: DVec3) -> Vec<Edit> {
             if halo.seed.is_by_opacity() && halo.seed.value.is_none() {
                 edits.push(Edit::set(seed.name("value"), "opacity"));
             }
-            let [inner, falloff] = [8.0, 4.0].map(|part| two_digits(grid.radius() / part));
+            let [inner, falloff] = focus_lengths(grid);
             let mut table = InlineTable::new();
             table.insert("at", place.clone().into());
             table.insert("inner", number(inner));
@@ -34,11 +34,6 @@ pub fn focus(scene: &Scene, grid: &Grid, at: DVec3) -> Vec<Edit> {
         }
     }
     edits
-}
-
-/// A length with two digits.
-fn two_digits(length: f64) -> f64 {
-    rounded(length, 1 - length.log10().floor() as i32)
 }
 
 #[cfg(test)]
@@ -59,7 +54,7 @@ mod tests {
     /// The radius is 150, so the focus is full to 18.75 and falls over 37.5.
     #[test]
     fn halos_without_a_focus_get_one_and_stay_seeded_by_opacity() {
-        let (text, scene) = focused("[[halo]]\nfloor = 0.1 # low\n[[halo]]\nseed.labels = [3]\n");
+        let (text, scene) = focused("[[halo]]\nfloor = 0.1 # low\n[[halo]]\nseed.direction.toward = 90\n");
         let focus = "focus = { at = [[10, 20.5, 30]], inner = 19, falloff = 38 }\n";
         assert!(text.contains("floor = 0.1 # low") && text.matches(focus).count() == 2, "{text}");
         let by_opacity: Vec<bool> = scene.halos.iter().map(|halo| halo.seed.is_by_opacity()).collect();
@@ -69,7 +64,7 @@ mod tests {
     #[test]
     fn a_focus_is_moved_and_keeps_its_lengths() {
         let (text, _) = focused("[[halo]]\n[[halo]]\nseed.focus = { pixels = [[3, 4]], inner = 5 } # here\n");
-        assert_eq!(text, "[[halo]]\n[[halo]]\nseed.focus = { inner = 5 , at = [[10, 20.5, 30]]} # here\n");
+        assert_eq!(text, "[[halo]]\n[[halo]]\nseed.focus = { inner = 5, at = [[10, 20.5, 30]] } # here\n");
         let (text, _) = focused("[[halo]]\nseed.focus = { at = [[1, 2, 3], [4, 5, 6]], inner = 5 }\n");
         assert_eq!(text, "[[halo]]\nseed.focus = { at = [[10, 20.5, 30]], inner = 5 }\n");
     }

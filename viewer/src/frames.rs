@@ -12,6 +12,7 @@ use crate::background::{Background, Desk};
 use crate::canvas::{self, Canvas, Drawn, Pace, Pixels};
 use crate::mailbox::Mail;
 use crate::present::Presenter;
+use crate::slice::ValueColors;
 use drypoint::drawing::Drawing;
 use drypoint::frames::ReferenceFrames;
 use drypoint::gpu::{Gpu, GpuFrames};
@@ -69,12 +70,23 @@ pub struct VolumeData {
     pub histogram: Histogram,
 }
 
+/// What a job says of its scene.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// The scene, with what was found in the data.
+    pub scene: Arc<Scene>,
+    /// Warnings.
+    pub warnings: Vec<String>,
+    /// The colours of the volume's values in the scene's function.
+    pub colors: Arc<ValueColors>,
+}
+
 /// An answer of the thread.
 pub enum Answer {
     /// Another volume was loaded.
     Loaded(Arc<VolumeData>),
-    /// A job was made, with these warnings. Its scene has what was found in the data.
-    Prepared(Arc<Scene>, Vec<String>),
+    /// A job was made.
+    Prepared(Prepared),
     /// A frame was drawn.
     Drawn(Frame),
     /// The scene of a revision could not be drawn.
@@ -148,7 +160,9 @@ impl Artist {
     fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Option<Box<Request>>, Failure> {
         let mut warnings: Vec<String> = job.plan.warnings.iter().map(ToString::to_string).collect();
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
-        self.desk.answer(Answer::Prepared(Arc::new(job.scene.clone()), warnings));
+        let range = self.data.as_ref().map_or(job.volume.range(), |(_, data)| [data.histogram.lo, data.histogram.hi]);
+        let colors = Arc::new(ValueColors::of(job, range));
+        self.desk.answer(Answer::Prepared(Prepared { scene: Arc::new(job.scene.clone()), warnings, colors }));
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {

@@ -2,10 +2,11 @@
 
 use crate::camera::Pose;
 use crate::document::{Document, Edit};
-use crate::frames::{Answer, Request, VolumeData, Worker};
+use crate::frames::{Answer, Prepared, Request, VolumeData, Worker};
 use crate::key::KeyPath;
 use crate::probe::{PixelQuery, PixelReport, Prober};
 use crate::screen::Screen;
+use crate::slice::ValueColors;
 use drypoint::gpu::Gpu;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::tables::Scene;
@@ -37,6 +38,8 @@ pub struct Session {
     pub scene: Option<Arc<Scene>>,
     /// The scene that is drawn, with nodes and iso-values that were found in the data.
     pub prepared: Option<Arc<Scene>>,
+    /// The colours of values in the function of the scene that is drawn.
+    pub colors: Option<Arc<ValueColors>>,
     /// The volume that is drawn.
     pub data: Option<Arc<VolumeData>>,
     /// The faults of the text, or of drawing it.
@@ -74,6 +77,7 @@ impl Session {
             document,
             scene: None,
             prepared: None,
+            colors: None,
             data: None,
             failures: None,
             warnings: Vec::new(),
@@ -127,7 +131,9 @@ impl Session {
                     self.cross = self.cross.filter(|cross| is_inside(grid.to_index(*cross)));
                     self.data = Some(data);
                 }
-                Answer::Prepared(scene, warnings) => (self.prepared, self.warnings) = (Some(scene), warnings),
+                Answer::Prepared(Prepared { scene, warnings, colors }) => {
+                    (self.prepared, self.warnings, self.colors) = (Some(scene), warnings, Some(colors));
+                }
                 Answer::Drawn(frame) => {
                     let (size, is_coarse, seconds, serial) =
                         (frame.size, frame.is_coarse, frame.seconds, frame.revision);

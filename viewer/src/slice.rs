@@ -1,6 +1,8 @@
 //! Slices of a volume along its index axes, as they lie on the screen.
 
 use crate::camera::Side;
+use drypoint::job::Job;
+use drypoint::scene::color::{Rgb, linear_to_srgb};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::volume::{Anatomy, Volume};
@@ -72,17 +74,51 @@ impl SlicePlane {
         })
     }
 
-    /// Returns slice `k` in grey: the range's ends are black and white, and codes are linear in the value. A pixel of the
-    /// picture is every `step`-th voxel.
-    pub fn grey(&self, volume: &Volume, k: usize, [lo, hi]: [f64; 2], step: usize) -> ColorImage {
+    /// Returns slice `k` in some colours. A pixel of the picture is every `step`-th voxel.
+    pub fn picture(&self, volume: &Volume, k: usize, colors: &ValueColors, step: usize) -> ColorImage {
         let [width, height, _] = self.size();
-        let scale = 255.0 / (hi - lo).max(f64::MIN_POSITIVE);
         let voxels = (0..height).step_by(step).flat_map(|y| (0..width).step_by(step).map(move |x| [x, y]));
-        let pixels = voxels.map(|pixel| {
-            // Voxels without a value are black.
-            Color32::from_gray(((volume.value(self.voxel(pixel, k)) - lo) * scale).round() as u8)
-        });
+        let pixels = voxels.map(|pixel| colors.of_value(volume.value(self.voxel(pixel, k))));
         ColorImage::new([width.div_ceil(step), height.div_ceil(step)], pixels.collect())
+    }
+}
+
+/// The colours of values in slices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ValueColors {
+    /// The values that are black and white in grey.
+    range: [f64; 2],
+    /// Colours at evenly spaced values of the range; none where values are grey.
+    colors: Vec<Option<Color32>>,
+}
+
+impl ValueColors {
+    /// Grey: the range's ends are black and white, and codes are linear in the value.
+    pub fn grey(range: [f64; 2]) -> Self {
+        Self { range, colors: Vec::new() }
+    }
+
+    /// The colours of a job's function where it shows something, and grey elsewhere.
+    pub fn of(job: &Job, range: [f64; 2]) -> Self {
+        /// Colours where values are not so many integers.
+        const ENTRIES: usize = 1024;
+        let [lo, hi] = range;
+        let is_whole = job.volume.is_integer() && job.volume.slope() == 1.0 && hi - lo < 65536.0;
+        let last = if is_whole { (hi - lo).max(1.0) } else { (ENTRIES - 1) as f64 };
+        let values: Vec<f64> = (0..=last as usize).map(|i| lo + (hi - lo) * (i as f64 / last)).collect();
+        let code = |c: f64| (linear_to_srgb(c.clamp(0.0, 1.0)) * 255.0).round() as u8;
+        let color = |rgb: Rgb| Color32::from_rgb(code(rgb[0]), code(rgb[1]), code(rgb[2]));
+        let colors = job.value_colors(&values).into_iter().map(|shown| shown.map(color)).collect();
+        Self { range, colors }
+    }
+
+    /// Returns the colour of a value: that of the nearest entry, or grey. Without a value a voxel is black.
+    fn of_value(&self, value: f64) -> Color32 {
+        let [lo, hi] = self.range;
+        let share = (value - lo) / (hi - lo).max(f64::MIN_POSITIVE);
+        let entry = (share * self.colors.len().saturating_sub(1) as f64).round() as usize;
+        let shown = self.colors.get(entry).copied().flatten();
+        shown.unwrap_or_else(|| Color32::from_gray((share * 255.0).round() as u8))
     }
 }
 
@@ -136,10 +172,11 @@ mod tests {
         let voxels = (0..256).map(|i| f([i % 16, i / 16 % 4, i / 64])).collect::<Vec<_>>();
         let grid = Grid::with_spacing(dims, [1.0, 2.0, 3.0]).unwrap();
         let volume = Volume::new(grid, Voxels::from_f64(&voxels, VoxelType::I16), 1.0, 0.0).unwrap();
+        let grey = ValueColors::grey([0.0, 255.0]);
         for plane in SlicePlane::all(volume.grid(), None) {
             let [width, height, slices] = plane.size();
             for k in 0..slices {
-                let image = plane.grey(&volume, k, [0.0, 255.0], 1);
+                let image = plane.picture(&volume, k, &grey, 1);
                 assert_eq!(image.size, [width, height]);
                 for (i, pixel) in image.pixels.iter().enumerate() {
                     let value = f(plane.voxel([i % width, i / width], k));
@@ -150,7 +187,7 @@ mod tests {
                 let [dx, dy] = [code(1, 0) - code(0, 0), code(0, 1) - code(0, 0)];
                 let is_ramp = |(x, y): (usize, usize)| code(x, y) == code(0, 0) + x as i32 * dx + y as i32 * dy;
                 assert!((0..width).flat_map(|x| (0..height).map(move |y| (x, y))).all(is_ramp), "{plane:?}");
-                let coarse = plane.grey(&volume, k, [0.0, 255.0], 3);
+                let coarse = plane.picture(&volume, k, &grey, 3);
                 assert_eq!(coarse.size, [width.div_ceil(3), height.div_ceil(3)]);
                 assert_eq!(coarse.pixels[1], image.pixels[3]);
             }

@@ -43,6 +43,7 @@ fn edits_keep_comments_and_layout() {
         || InlineTable::from_iter([("normal", Value::from_iter([0, 1, 0])), ("point", Value::from_iter([0, 5, 0]))]);
     let cases: Vec<(Edit, &str, String)> = vec![
         (Edit::set("volume.phantom.size", 25), "size = 24", "size = 25".into()),
+        (Edit::set("volume.phantom.spacing", Value::from_iter([1, 2, 1])), "24 }", "24, spacing = [1, 2, 1] }".into()),
         (Edit::set("transfer.nodes[1].at", 151.5), "at = 150", "at = 151.5".into()),
         (Edit::set("transfer.nodes[0].color", "#ffffff"), "#804020", "#ffffff".into()),
         (Edit::set("clip[0].point", Value::from_iter([11, 0, 0])), "[12, 0, 0]", "[11, 0, 0]".into()),

@@ -3,7 +3,7 @@
 use super::Panel;
 use crate::frames::VolumeData;
 use crate::session::Session;
-use crate::slice::SlicePlane;
+use crate::slice::{SlicePlane, ValueColors};
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::volume::info::short;
 use eframe::egui::{
@@ -24,11 +24,15 @@ pub(super) struct SlicesPanel {
     shown: [Option<ShownSlice>; 3],
     /// Points of the wheel that are not yet a slice.
     turned: f32,
+    /// Whether values have their colours in the function.
+    is_colored: bool,
 }
 
 /// The picture of a slice.
 struct ShownSlice {
     data: Arc<VolumeData>,
+    /// None: grey.
+    colors: Option<Arc<ValueColors>>,
     k: usize,
     texture: TextureHandle,
 }
@@ -51,9 +55,13 @@ impl Panel for SlicesPanel {
         });
         let [i, j, k] = voxel;
         let value = short(data.volume.value(voxel));
-        ui.label(format!("Voxel {i}, {j}, {k}: {value}")).on_hover_text(
-            "A click in the picture or in a slice moves the cross-hair, and the wheel goes through the slices.",
-        );
+        ui.horizontal(|ui| {
+            ui.checkbox(&mut self.is_colored, "In the function's colours");
+            ui.label(format!("Voxel {i}, {j}, {k}: {value}")).on_hover_text(
+                "A click in the picture or in a slice moves the cross-hair, and the wheel goes through the slices.",
+            );
+        });
+        let colors = session.colors.clone().filter(|_| self.is_colored);
         let area = ui.available_rect_before_wrap();
         let is_wide = area.width() > area.height();
         for (n, plane) in SlicePlane::all(grid, data.volume.anatomy()).iter().enumerate() {
@@ -65,7 +73,7 @@ impl Panel for SlicesPanel {
             let scale = (cell.width() / lengths[0]).min(cell.height() / lengths[1]).max(0.0);
             let rect = Rect::from_center_size(cell.center(), Vec2::from(lengths) * scale);
             let k = voxel[plane.axes[2]];
-            let texture = self.texture(ui, n, plane, k, &data);
+            let texture = self.texture(ui, n, (plane, k), &data, colors.as_ref());
             if let Some(to) = self.slice(ui, plane, rect, texture, index, k) {
                 session.cross = Some(grid.to_world(to));
             }
@@ -75,16 +83,28 @@ impl Panel for SlicesPanel {
 
 impl SlicesPanel {
     /// Returns the texture of slice `k`, which is made anew if another one was shown.
-    fn texture(&mut self, ui: &Ui, n: usize, plane: &SlicePlane, k: usize, data: &Arc<VolumeData>) -> TextureHandle {
-        let is_shown = |shown: &&ShownSlice| shown.k == k && Arc::ptr_eq(&shown.data, data);
+    fn texture(
+        &mut self,
+        ui: &Ui,
+        n: usize,
+        (plane, k): (&SlicePlane, usize),
+        data: &Arc<VolumeData>,
+        colors: Option<&Arc<ValueColors>>,
+    ) -> TextureHandle {
+        let is_shown = |shown: &&ShownSlice| {
+            let same_colors = shown.colors.as_ref().map(Arc::as_ptr) == colors.map(Arc::as_ptr);
+            shown.k == k && same_colors && Arc::ptr_eq(&shown.data, data)
+        };
         if let Some(shown) = self.shown[n].as_ref().filter(is_shown) {
             return shown.texture.clone();
         }
         let [width, height, _] = plane.size();
         let step = width.max(height).div_ceil(ui.input(|input| input.max_texture_side).max(1));
-        let image = plane.grey(&data.volume, k, [data.histogram.lo, data.histogram.hi], step.max(1));
+        let grey = ValueColors::grey([data.histogram.lo, data.histogram.hi]);
+        let image = plane.picture(&data.volume, k, colors.map_or(&grey, Arc::as_ref), step.max(1));
         let texture = ui.ctx().load_texture(plane.name, image, TextureOptions::NEAREST);
-        self.shown[n] = Some(ShownSlice { data: Arc::clone(data), k, texture: texture.clone() });
+        self.shown[n] =
+            Some(ShownSlice { data: Arc::clone(data), colors: colors.cloned(), k, texture: texture.clone() });
         texture
     }
 

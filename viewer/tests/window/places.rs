@@ -117,6 +117,27 @@ fn picture_and_slices_share_the_cross_hair() {
         codes.insert(grey.r());
     }
     assert!(codes.len() >= 3, "{codes:?}");
+    // The function shows values above 120, from 150 on in the second node's colour.
+    window.get_by_label("In the function's colours").click();
+    window.run_steps(3);
+    let image = window.render().unwrap();
+    let mut kinds = std::collections::BTreeSet::new();
+    let all = (0..24).flat_map(|y| (0..24).map(move |x| [x, y])).filter(|[x, y]| *x != 15 && *y != 6);
+    // The name lies over the first voxels.
+    for [x, y] in all.filter(|[_, y]| *y > 1) {
+        let value = data.volume.value([23 - x, 23 - y, k as usize]);
+        let at = pixel_of(axial, [x, y]);
+        let [r, g, b, _] = image.get_pixel(at.x as u32, at.y as u32).0;
+        let kind = if value <= 120.0 { 0 } else { 1 + usize::from(value >= 150.0) };
+        let grey = ((value - lo) / (hi - lo) * 255.0).round() as u8;
+        match kind {
+            0 => assert_eq!([r, g, b], [grey; 3], "{value}"),
+            1 => assert!(r > g && g > b, "{value}: {r} {g} {b}"),
+            _ => assert_eq!([r, g, b], [0xff, 0xcc, 0x88], "{value}"),
+        }
+        kinds.insert(kind);
+    }
+    assert_eq!(kinds.len(), 3, "{kinds:?}");
 
     let wheel = |notches: f32| Event::MouseWheel {
         unit: MouseWheelUnit::Line,
