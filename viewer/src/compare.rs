@@ -1,5 +1,7 @@
-//! The reference against the card on the scene as it stands, at a reduced size, in the background: `drypoint validate`.
+//! The reference against the card on the scene as it stands, at a reduced size with a ray a pixel, in the background:
+//! `drypoint validate`.
 
+use crate::frames::shown_size;
 use drypoint::gpu::Gpu;
 use drypoint::job::{Job, RenderTarget};
 use drypoint::output::compare::difference::difference_picture;
@@ -7,7 +9,7 @@ use drypoint::output::compare::{CompareOptions, flip};
 use drypoint::output::png::rgba_codes;
 use drypoint::output::read::Image;
 use drypoint::scene::source::Disk;
-use drypoint::scene::tables::Scene;
+use drypoint::scene::tables::{RaysPerPixel, Scene};
 use drypoint::scene::volume::Volume;
 use drypoint::validate::{Validation, validate};
 use drypoint::{Failure, Failures};
@@ -51,6 +53,15 @@ impl Comparing {
             }
         }
     }
+}
+
+/// Returns a scene at a reduced size: at most so many pixels on the longer side, and one ray a pixel. See
+/// [`shown_size`] for pages.
+pub fn reduced(scene: &Scene, longest: usize) -> Scene {
+    let mut scene = scene.clone();
+    scene.picture.size = shown_size(&scene, longest);
+    scene.picture.samples = RaysPerPixel::Across(1);
+    scene
 }
 
 /// Compares a card with the reference on a scene.

@@ -265,7 +265,7 @@ impl Artist {
 }
 
 /// Returns the size in which a scene is shown: its own, or a smaller one of the same shape. Lengths on a page keep theirs.
-pub(crate) fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
+pub fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
     let [width, height] = scene.picture.size;
     let own = width.max(height);
     if own <= longest || scene.draws_on_page() {

@@ -6,6 +6,9 @@
 //! | [`session`] | the document with its scene, its volume, its frame; what panels share |
 //! | [`frames`] | the thread that draws |
 //! | [`probe`] | the thread that tells what is seen at a pixel |
+//! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
+//! | [`focus`] | halos focused at a place |
+//! | [`compare`] | the card against the reference, in the background |
 //! | [`camera`] | moves of the camera in closed form |
 //! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
 //! | [`commands`] | the list that menus, keys and the palette share |

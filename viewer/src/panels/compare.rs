@@ -1,14 +1,13 @@
 //! The card against the reference: verdict, largest difference, bound, stages, and a picture of the difference.
 
 use super::Panel;
-use crate::compare::{Comparing, Comparison};
-use crate::frames::shown_size;
+use crate::compare::{Comparing, Comparison, reduced};
 use crate::session::Session;
 use drypoint::Failures;
 use drypoint::validate::{Validation, Verdict};
 use eframe::egui::{self, DragValue, Image, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, Vec2};
 
-/// Most pixels of the longer side at first: with software for a card a comparison then takes some seconds.
+/// Most pixels of the longer side at first.
 const LONGEST: usize = 64;
 
 /// The panel of comparisons.
@@ -45,6 +44,9 @@ impl Panel for ComparePanel {
             ui.weak("There is no card that draws scenes.");
             return;
         };
+        if card.is_software() {
+            ui.weak("Software stands for the card, so it takes minutes for large volumes.");
+        }
         ui.horizontal(|ui| {
             let label = ui.label("longer side in pixels").id;
             ui.add(DragValue::new(&mut self.longest).range(16..=1024)).labelled_by(label);
@@ -52,8 +54,7 @@ impl Panel for ComparePanel {
             if ui.add_enabled(can_start, egui::Button::new("Compare now")).clicked()
                 && let (Some(scene), Some(data)) = (&session.scene, &session.data)
             {
-                let mut scene = (**scene).clone();
-                scene.picture.size = shown_size(&scene, self.longest);
+                let scene = reduced(scene, self.longest);
                 let ctx = ui.ctx().clone();
                 let wake = Box::new(move || ctx.request_repaint());
                 self.running = Some((session.serial(), Comparing::start(scene, data.volume.clone(), card, wake)));

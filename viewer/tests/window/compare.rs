@@ -2,26 +2,26 @@
 
 use super::{SCENE, viewer, wait_for, window};
 use drypoint_viewer::app::Backend;
-use drypoint_viewer::compare::compare;
+use drypoint_viewer::compare::{compare, reduced};
 use egui_kittest::kittest::Queryable;
 
 /// The panel shows the verdict and the figures of `drypoint validate`.
 #[test]
 fn a_comparison_tells_what_the_command_tells() {
-    let small = SCENE.replace("size = [96, 72]", "size = [24, 18]");
-    let Some(mut window) = window(&small, Backend::Reference) else { return };
+    let auto = SCENE.replace("samples = 1", "samples = \"auto\"");
+    let Some(mut window) = window(&auto, Backend::Reference) else { return };
     window.get_by_label("Compare").click();
     window.run_steps(3);
     window.get_by_label("Compare now").click();
     wait_for(&mut window, "no verdict", |window| window.query_by_label_contains("Bounds: ").map(|_| ()));
     window.run_steps(3);
     let session = &viewer(&window).session;
-    let scene = session.scene.as_deref().unwrap().clone();
+    let scene = reduced(session.scene.as_ref().unwrap(), 64);
     let card = session.card.clone().unwrap();
     let direct = compare(scene, session.data.as_ref().unwrap().volume.clone(), &card).unwrap();
     let bounded = direct.found.bounded.as_ref().unwrap();
     assert!(bounded.measured > 0.0 && bounded.measured <= bounded.bound && direct.found.parts_at.is_none());
-    assert_eq!(direct.difference.size, [24, 18]);
+    assert_eq!(direct.difference.size, [64, 48]);
     let figures = [format!("{:.1e}", bounded.measured), format!("{:.1e}", bounded.bound), direct.found.adapter.clone()];
     let verdict = format!("Bounds: {}", direct.found.verdict());
     assert_eq!(verdict, "Bounds: kept");
