@@ -100,16 +100,16 @@ fn picture_and_slices_share_the_cross_hair() {
     let data = viewer(&window).session.data.clone().unwrap();
     // From below x falls to the right, and y falls down.
     let axial = window.get_by_label("Axial slice").rect();
-    let (pixel, k) = ([15, 6], cross.z.round());
+    let (pixel, k) = ([15, 6], cross.z.round() as usize);
     click(&mut window, pixel_of(axial, pixel));
-    assert_eq!(viewer(&window).session.cross, Some(DVec3::new(8.0, 17.0, k)));
-    let voxel = [8, 17, k as usize].map(|n| n.to_string()).join(", ");
+    assert_eq!(viewer(&window).session.cross, Some(DVec3::new(8.0, 17.0, k as f64)));
+    let voxel = [8, 17, k].map(|n| n.to_string()).join(", ");
     assert!(window.query_by_label_contains(&format!("Voxel {voxel}: ")).is_some(), "{voxel}");
     let image = window.render().unwrap();
     let [lo, hi] = data.volume.range();
     let mut codes = std::collections::BTreeSet::new();
     for [x, y] in [[3, 3], [11, 12], [19, 8], [4, 12], [12, 20], [20, 20]] {
-        let value = data.volume.value([23 - x, 23 - y, k as usize]);
+        let value = data.volume.value([23 - x, 23 - y, k]);
         let at = pixel_of(axial, [x, y]);
         let shown = image.get_pixel(at.x as u32, at.y as u32);
         let grey = Color32::from_gray(((value - lo) / (hi - lo) * 255.0).round() as u8);
@@ -118,6 +118,8 @@ fn picture_and_slices_share_the_cross_hair() {
     }
     assert!(codes.len() >= 3, "{codes:?}");
     // The function shows values above 120, from 150 on in the second node's colour.
+    let k = 12;
+    window.state_mut().as_mut().unwrap().session.cross = Some(DVec3::new(8.0, 17.0, 12.0));
     window.get_by_label("In the function's colours").click();
     window.run_steps(3);
     let image = window.render().unwrap();
@@ -125,7 +127,7 @@ fn picture_and_slices_share_the_cross_hair() {
     let all = (0..24).flat_map(|y| (0..24).map(move |x| [x, y])).filter(|[x, y]| *x != 15 && *y != 6);
     // The name lies over the first voxels.
     for [x, y] in all.filter(|[_, y]| *y > 1) {
-        let value = data.volume.value([23 - x, 23 - y, k as usize]);
+        let value = data.volume.value([23 - x, 23 - y, k]);
         let at = pixel_of(axial, [x, y]);
         let [r, g, b, _] = image.get_pixel(at.x as u32, at.y as u32).0;
         let kind = if value <= 120.0 { 0 } else { 1 + usize::from(value >= 150.0) };
