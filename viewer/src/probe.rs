@@ -89,7 +89,7 @@ impl ProbedPlace {
 }
 
 /// A handle of the thread, which ends when it is dropped.
-pub struct Prober(Background<Box<PixelQuery>, PixelReport>);
+pub struct Prober(Background<PixelQuery, PixelReport>);
 
 impl Prober {
     /// Starts the thread. `wake` is called after each answer, on the thread.
@@ -99,7 +99,7 @@ impl Prober {
 
     /// Asks a question in place of all before it.
     pub fn ask(&self, query: PixelQuery) {
-        self.0.ask(Box::new(query));
+        self.0.ask(query);
     }
 
     /// Returns the answers since the last call.
@@ -108,12 +108,12 @@ impl Prober {
     }
 }
 
-type ProbeDesk = Desk<Box<PixelQuery>, PixelReport>;
+type ProbeDesk = Desk<PixelQuery, PixelReport>;
 
 fn run(desk: &ProbeDesk) {
     let mut next = desk.wait();
     while let Some(query) = next {
-        let PixelQuery { serial, pixel, is_click, .. } = *query;
+        let PixelQuery { serial, pixel, is_click, .. } = query;
         let served = load(&query).and_then(|(job, names)| Ok(serve(desk, &job, &names, query)?));
         next = served.unwrap_or_else(|failures| {
             desk.answer(PixelReport { serial, pixel, is_click, place: Err(failures) });
@@ -137,12 +137,12 @@ fn serve(
     desk: &ProbeDesk,
     job: &Job,
     names: &LabelNames,
-    mut query: Box<PixelQuery>,
-) -> Result<Option<Box<PixelQuery>>, Failure> {
+    mut query: PixelQuery,
+) -> Result<Option<PixelQuery>, Failure> {
     let mut renderer = job.renderer()?;
     let mut field = None;
     loop {
-        let PixelQuery { serial, pixel, is_click, .. } = *query;
+        let PixelQuery { serial, pixel, is_click, .. } = query;
         let picked = pick_pixel(&renderer, pixel);
         let report = |field: Option<&Field<'_, f64>>, is_click: bool| {
             let place = picked.map(|picked| ProbedPlace {

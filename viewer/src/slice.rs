@@ -58,9 +58,8 @@ impl SlicePlane {
     /// Returns the voxel of a pixel of slice `k`.
     pub fn voxel(&self, pixel: [usize; 2], k: usize) -> [usize; 3] {
         let mut voxel = [k; 3];
-        for side in 0..2 {
-            let axis = self.axes[side];
-            voxel[axis] = if self.flips[side] { self.dims[axis] - 1 - pixel[side] } else { pixel[side] };
+        for ((axis, flips), n) in self.axes.into_iter().zip(self.flips).zip(pixel) {
+            voxel[axis] = if flips { self.dims[axis] - 1 - n } else { n };
         }
         voxel
     }
