@@ -21,8 +21,10 @@ use std::sync::mpsc::{Receiver, TryRecvError, channel};
 pub struct Comparison {
     /// The figures.
     pub found: Validation,
-    /// The picture of the difference (FLIP): black for none.
+    /// The picture of the difference (FLIP): black for none, pale for the largest.
     pub difference: ColorImage,
+    /// The largest FLIP of a pixel, from 0 to 1.
+    pub largest_flip: f64,
 }
 
 /// A comparison that runs in the background.
@@ -73,7 +75,13 @@ pub fn compare(scene: Scene, volume: Arc<Volume>, card: &Gpu) -> Result<Comparis
     let found = validate(&job, card)?;
     let [a, b] = found.pictures.each_ref().map(Image::from);
     let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree);
-    let map = map.map_err(|error| Failure::picture(&error, "the difference"))?;
+    let mut map = map.map_err(|error| Failure::picture(&error, "the difference"))?;
+    // Differences within bounds would all be black.
+    let largest_flip = map.values.iter().copied().fold(0.0, f64::max);
+    if largest_flip > 0.0 {
+        map.values.iter_mut().for_each(|value| *value /= largest_flip);
+    }
     let bytes = rgba_codes(&difference_picture(&map), 8).map_err(|error| Failure::picture(&error, "the difference"))?;
-    Ok(Comparison { difference: ColorImage::from_rgba_unmultiplied([map.width, map.height], &bytes), found })
+    let difference = ColorImage::from_rgba_unmultiplied([map.width, map.height], &bytes);
+    Ok(Comparison { found, difference, largest_flip })
 }

@@ -22,6 +22,7 @@ pub(super) struct ComparePanel {
 struct ShownComparison {
     found: Validation,
     difference: TextureHandle,
+    largest_flip: f64,
 }
 
 impl Default for ComparePanel {
@@ -87,8 +88,9 @@ impl ComparePanel {
         let end = self.running.as_ref().and_then(|(serial, running)| Some((*serial, running.end()?)));
         if let Some((serial, end)) = end {
             self.running = None;
-            let shown = end.map(|Comparison { found, difference }| ShownComparison {
+            let shown = end.map(|Comparison { found, difference, largest_flip }| ShownComparison {
                 found,
+                largest_flip,
                 difference: ui.ctx().load_texture("difference", difference, TextureOptions::NEAREST),
             });
             self.last = Some((serial, shown));
@@ -97,7 +99,7 @@ impl ComparePanel {
 }
 
 /// Shows the figures of a comparison.
-fn figures(ui: &mut Ui, ShownComparison { found, difference }: &ShownComparison) {
+fn figures(ui: &mut Ui, ShownComparison { found, difference, largest_flip }: &ShownComparison) {
     let verdict = found.verdict();
     let color = match verdict {
         Verdict::Kept => ui.visuals().text_color(),
@@ -110,6 +112,7 @@ fn figures(ui: &mut Ui, ShownComparison { found, difference }: &ShownComparison)
         None if found.has_double() => drop(ui.label("No stage parts in f64.")),
         None => drop(ui.label("The card has no f64.")),
     }
+    ui.weak(&found.adapter);
     found.unbounded.iter().for_each(|why| drop(ui.label(why)));
     egui::Grid::new("figures").num_columns(2).striped(true).show(ui, |ui| {
         let mut row = |name: &str, number: String| {
@@ -117,7 +120,6 @@ fn figures(ui: &mut Ui, ShownComparison { found, difference }: &ShownComparison)
             ui.label(number);
             ui.end_row();
         };
-        row("adapter", found.adapter.clone());
         if let Some(bounded) = &found.bounded {
             row("largest difference", format!("{:.1e}", bounded.measured));
             row("largest bound", format!("{:.1e}", bounded.bound));
@@ -143,7 +145,7 @@ fn figures(ui: &mut Ui, ShownComparison { found, difference }: &ShownComparison)
         }
     });
     ui.add_space(6.0);
-    ui.label("The difference (FLIP), black for none");
+    ui.label(format!("The difference (FLIP): black for none, pale for {largest_flip:.1e}"));
     let [width, height] = difference.size().map(|n| n as f32);
     let scale = (ui.available_width() / width).min(8.0);
     let picture = Image::new((difference.id(), Vec2::new(width, height) * scale));

@@ -3,6 +3,7 @@
 use super::{SCENE, viewer, wait_for, window};
 use drypoint_viewer::app::Backend;
 use drypoint_viewer::compare::{compare, reduced};
+use eframe::egui::Color32;
 use egui_kittest::kittest::Queryable;
 
 /// The panel shows the verdict and the figures of `drypoint validate`.
@@ -22,6 +23,11 @@ fn a_comparison_tells_what_the_command_tells() {
     let bounded = direct.found.bounded.as_ref().unwrap();
     assert!(bounded.measured > 0.0 && bounded.measured <= bounded.bound && direct.found.parts_at.is_none());
     assert_eq!(direct.difference.size, [64, 48]);
+    // The largest difference is the end of the map Magma, and the background is black.
+    let is_largest = |pixel: &&Color32| pixel.to_array() == [252, 253, 191, 255];
+    assert_eq!(direct.difference.pixels.iter().filter(is_largest).count(), 1);
+    assert_eq!(direct.difference.pixels[0], Color32::from_rgb(0, 0, 4));
+    assert!(direct.largest_flip >= direct.found.flip && direct.largest_flip < 1e-2);
     let figures = [format!("{:.1e}", bounded.measured), format!("{:.1e}", bounded.bound), direct.found.adapter.clone()];
     let verdict = format!("Bounds: {}", direct.found.verdict());
     assert_eq!(verdict, "Bounds: kept");
