@@ -5,7 +5,7 @@
 //! | drag | turns |
 //! | drag with Shift, or with the middle button | moves |
 //! | drag with the right button, wheel, pinch | nearer and further |
-//! | rest, click | see [`pointer`] |
+//! | rest, click | see `pointer.rs` |
 
 use crate::panels::{Panel, PictureArea};
 use crate::pointer;
