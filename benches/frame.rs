@@ -44,7 +44,7 @@ fn style_with_contours(bencher: Bencher) {
     frame(bencher, &[STYLES, "[contours]\n"]);
 }
 
-/// One ray a pixel, and 3×3 at edges.
+/// One ray a pixel, and five or nine at edges.
 #[divan::bench(sample_count = 15)]
 fn style_with_contours_auto(bencher: Bencher) {
     let job = job(&[STYLES, "[contours]\n"], "\"auto\"");

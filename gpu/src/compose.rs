@@ -79,6 +79,8 @@ fn of_volume(
     let clips = !shot.clipping.planes.is_empty();
     if clips {
         ray::add_clip(&mut shader, &shot.clipping, styles.len());
+    } else {
+        shader.add(&[ray::UNCLIPPED]);
     }
     // Derivatives. Quantities of layers `first.*` and of looks that the volume meets are measured at every visible sample.
     let beyond = [object.first, object.meeting].into_iter().flatten();

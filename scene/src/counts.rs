@@ -20,7 +20,7 @@ pub struct Counts {
     pub halo_passes: u64,
     /// Rays cast.
     pub rays: u64,
-    /// Pixels that got 3×3 rays in place of one ([RAY-7]).
+    /// Pixels that got five or nine rays in place of one ([RAY-7]).
     pub refined_pixels: u64,
     /// Rays that evaluated no sample.
     pub rays_skipped: u64,

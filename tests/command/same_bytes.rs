@@ -42,9 +42,9 @@ const SCENES: &[(&str, &str)] = &[
 
 /// The files, what writes them, and the SHA-256 of their bytes.
 const FILES: &[(&str, &str, &str)] = &[
-    ("default.png", "render --size 48x36", "54bcc8d11c7f9a7a3c45ef7e5eddee754b792c1341201d674a52d5db2f9f40cf"),
-    ("styles.exr", "render styles.toml", "7531347b6b7787a75afc922c8a52ba80f1b4b123c8ea7ec057c74f50cfa2e366"),
-    ("labels.exr", "render labels.toml", "4488ca684501027ad7773b8834e905b3b3791643a1099bf629282d71e4b290f0"),
+    ("default.png", "render --size 48x36", "5b3e2c6e1619c6343e37eecec06d42966db15824840e0a1a3949b768c701e03f"),
+    ("styles.exr", "render styles.toml", "5269dbea9a6eeed3fc51a2bdb8761d1e4977beb383aa5130ab74c9e47d48c974"),
+    ("labels.exr", "render labels.toml", "631202d00cc188b8c1d80b6b003853b829e9e61164e0a6090d3431f73209b236"),
     ("phong.exr", "render phong.toml", "a08be2efd242851f301ffce9a7bce1f9af17f2375715387fbfa00ab1aaddc948"),
     (
         "phong.gif",

@@ -47,7 +47,9 @@ fn every_count_is_there_and_nothing_else() {
     }
     let refined = stats["refined_pixels"].as_u64().unwrap();
     assert!(refined > 0);
-    assert_eq!(stats["rays"], 24 * 16 + 8 * refined);
+    // Four or eight further rays.
+    let further = stats["rays"].as_u64().unwrap() - 24 * 16;
+    assert!(further.is_multiple_of(4) && (4 * refined..=8 * refined).contains(&further), "{further} {refined}");
     assert_eq!(stats["bytes"]["volume"], 20 * 20 * 20);
     assert_eq!(stats["bytes"]["picture"], 4 * 8 * 24 * 16);
     assert_eq!(stats["preprocess"]["gradients"], 20 * 20 * 20);

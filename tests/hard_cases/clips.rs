@@ -71,6 +71,51 @@ fn a_homogeneous_box_has_the_opacity_of_its_samples() {
     }
 }
 
+/// A cap on a linear field has the colour of the place where the ray meets the plane, and its depth, at any step.
+#[test]
+fn a_cap_on_a_linear_field_is_exact_at_any_step() {
+    let grid = sheared();
+    let slope = DVec3::new(0.4, -0.3, 0.2);
+    let middle = grid.centre();
+    let value = |p: DVec3| 5.0 + slope.dot(p - middle);
+    let volume = on(grid.clone(), value);
+    let [low, high] = volume.range();
+    let ends = [[0.1, 0.9, 0.2], [0.8, 0.05, 0.6]];
+    let nodes = [(low, ends[0], 1.0), (high, ends[1], 1.0)];
+    let normal = DVec3::new(0.3, -1.0, 0.5).normalize();
+    let point = middle + DVec3::new(0.2, 0.3, -0.1);
+    let [lo, hi] = grid.index_box();
+    for step in [0.23, 0.9, 2.1] {
+        let stage = Stage::regular(volume.clone(), &nodes).step(step).layers(&[LayerKind::Depth]).with(|s| {
+            s.camera = perspective(35.0);
+            s.camera.direction = DVec3::new(0.2, 1.0, 0.1);
+            s.picture.size = [31, 29];
+            s.clips = vec![plane(point, normal)];
+        });
+        let (view, shown) = (stage.view(), stage.render());
+        let depths = shown.one_of_depth();
+        let mut on_plane = 0;
+        for (t, pixel) in shown.pixels().into_iter().enumerate() {
+            let ray = view.ray((t % 31) as f64 + 0.5, (t / 31) as f64 + 0.5);
+            let crossing = (point - ray.origin).dot(normal) / ray.along.dot(normal);
+            // A sample before the plane and one behind it are in the box.
+            let is_inside = |depth: f64| {
+                let at = grid.to_index(ray.origin + ray.along * depth);
+                at.cmpge(lo).all() && at.cmple(hi).all()
+            };
+            if ![crossing - step, crossing + step].into_iter().all(is_inside) {
+                continue;
+            }
+            let share = (value(ray.origin + ray.along * crossing) - low) / (high - low);
+            let expected = [0, 1, 2].map(|c| ends[0][c] + share * (ends[1][c] - ends[0][c]));
+            assert!((0..3).all(|c| (pixel[c] - expected[c]).abs() < 1e-12), "{step} {t}: {pixel:?} {expected:?}");
+            assert!((depths[t] - crossing).abs() < 1e-11, "{step} {t}: {} {crossing}", depths[t]);
+            on_plane += 1;
+        }
+        assert!(on_plane > 60, "{step}: {on_plane}");
+    }
+}
+
 /// An opaque ball of radius R cut in the middle by a plane that faces the eye: a disc of area πR² that shows the cap, or
 /// the ball's own colour under the plane's normal.
 #[test]
@@ -99,8 +144,9 @@ fn a_ball_cut_in_the_middle_shows_a_disc() {
         if pixel[3] == 0.0 {
             continue;
         }
-        // The first sample behind the plane through depth 0.
-        if depths[i] < 0.25 {
+        // On the plane through depth 0.
+        if depths[i] < 0.1 {
+            assert!(depths[i].abs() < 1e-12, "{}", depths[i]);
             assert!((DVec3::from_array(normals[i]) - DVec3::Z).length() < 1e-14, "{:?}", normals[i]);
             // ambient + diffuse under a light at the eye.
             let expected = [0.2, 0.4, 0.6].map(|c| 0.75 * c);
@@ -189,24 +235,26 @@ fn a_cut_has_no_curvature_and_changes_none_behind_it() {
                     s.clips = clips;
                 })
         };
-        let cut = stage(vec![plane(DVec3::new(8.0, 4.1, 8.0), DVec3::NEG_Y)]).render();
+        let cut = stage(vec![plane(DVec3::new(8.0, 4.2, 8.0), DVec3::NEG_Y)]).render();
         let whole = stage(vec![]).render();
         let kappas = [&cut, &whole].map(|shown| shown.one(LayerKind::FirstCurvatureAlongView));
+        let [firsts, expected] = [&cut, &whole].map(|shown| shown.layer::<3>(LayerKind::Depth));
         let (mut on_cut, mut next, mut farther) = (0, 0, 0);
-        for (i, [first, ..]) in whole.layer::<3>(LayerKind::Depth).into_iter().enumerate() {
+        for (i, ([first, ..], [expected, ..])) in firsts.into_iter().zip(expected).enumerate() {
             // Depth 0 is y = 8.
             let y = 8.0 + first;
-            if y == 4.25 {
+            if y < 4.25 {
+                assert!((y - 4.2).abs() < 1e-12, "{y}");
                 assert_eq!(kappas[0][i], 0.0);
                 assert!(kappas[1][i] != 0.0);
                 on_cut += 1;
-            } else if y.is_finite() {
+            } else if first == expected && y.is_finite() {
                 assert_eq!(kappas[0][i].to_bits(), kappas[1][i].to_bits());
                 assert!(kappas[0][i] != 0.0);
                 (next, farther) = (next + usize::from(y == 4.75), farther + usize::from(y > 4.75));
             }
         }
-        assert!(on_cut > 50 && next > 50 && farther > 50, "{kappa:?} {on_cut} {next} {farther}");
+        assert!(on_cut > 40 && next > 50 && farther > 50, "{kappa:?} {on_cut} {next} {farther}");
     }
 }
 

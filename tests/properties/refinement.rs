@@ -1,4 +1,4 @@
-//! Adaptive antialiasing ([RAY-7]): each pixel is that of one ray or that of nine, and how it was drawn shows nowhere.
+//! Adaptive antialiasing ([RAY-7]): each pixel is that of one ray, of five or of nine, and how it was drawn shows nowhere.
 
 use super::generator::{resized, scene};
 use super::planes::{counted, lines};
@@ -16,16 +16,21 @@ fn around(at: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize>
     near(at / width, height).flat_map(move |row| near(at % width, width).map(move |column| row * width + column))
 }
 
+/// A colour as it is displayed.
+fn displayed([r, g, b, a]: Rgba) -> Rgba {
+    let [r, g, b] = [r, g, b].map(|c| linear_to_srgb(c.clamp(0.0, 1.0)));
+    [r, g, b, a]
+}
+
+fn differ(a: Rgba, b: Rgba, contrast: f64) -> bool {
+    (0..4).any(|c| (a[c] - b[c]).abs() > contrast)
+}
+
 /// Whether each pixel of a picture of one ray a pixel differs from a neighbour by more than the contrast.
 fn at_edges(one: &Shown, contrast: f64) -> Vec<bool> {
     let size = [one.picture.width, one.picture.height];
-    let displayed = |[r, g, b, a]: Rgba| {
-        let [r, g, b] = [r, g, b].map(|c| linear_to_srgb(c.clamp(0.0, 1.0)));
-        [r, g, b, a]
-    };
-    let pixels: Vec<[f64; 4]> = one.pixels().into_iter().map(displayed).collect();
-    let differ = |a: [f64; 4], b: [f64; 4]| (0..4).any(|c| (a[c] - b[c]).abs() > contrast);
-    (0..pixels.len()).map(|at| around(at, size).any(|near| differ(pixels[at], pixels[near]))).collect()
+    let pixels: Vec<Rgba> = one.pixels().into_iter().map(displayed).collect();
+    (0..pixels.len()).map(|at| around(at, size).any(|near| differ(pixels[at], pixels[near], contrast))).collect()
 }
 
 /// Lines inside the picture of every third scene.
@@ -43,11 +48,14 @@ fn stage(seed: u64) -> Stage {
     })
 }
 
-/// Each pixel has the bits of one ray or, if it differs from a neighbour, those of nine; layers that are no means have those
-/// of the middle ray everywhere. No middle ray is cast twice.
+/// The parts of a pixel of five rays.
+const FIVE: [usize; 5] = [0, 2, 4, 6, 8];
+
+/// Each pixel has the bits of one ray or, if it differs from a neighbour, of five or of nine; layers that are no means have those of the middle ray everywhere. No middle ray is cast twice.
 #[test]
-fn each_pixel_is_that_of_one_ray_or_of_nine() {
+fn each_pixel_is_that_of_one_ray_of_five_or_of_nine() {
     let [mut refined, mut kept, mut lined] = [0; 3];
+    let [mut fives, mut nines] = [0; 2];
     for seed in 12_000..12_160 {
         let stage = stage(seed);
         let lines = lines_of(&stage, seed);
@@ -60,8 +68,12 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
         let [auto, one, nine] = [RaysPerPixel::Auto, RaysPerPixel::Across(1), RaysPerPixel::Across(3)].map(by);
         let at_edges = at_edges(&one, stage.scene.picture.contrast);
         let edges = at_edges.iter().filter(|is| **is).count();
+        // The bits of the beauty tell whether a pixel has nine rays, if these differ at all.
+        let [of_auto, of_one, of_nine] = [&auto, &one, &nine].map(|shown| shown.pixels());
+        let bits = |color: Rgba| color.map(f64::to_bits);
+        let has_nine = |at: usize| bits(of_auto[at]) == bits(of_nine[at]) && bits(of_one[at]) != bits(of_nine[at]);
         for layer in &auto.picture.layers {
-            let has_nine = matches!(
+            let is_mean = matches!(
                 layer.kind,
                 LayerKind::Beauty
                     | LayerKind::Normal
@@ -73,7 +85,11 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
             let [one, nine] = [&one, &nine].map(|shown| &shown.picture.layer(layer.kind).unwrap().channels);
             for ((auto, one), nine) in layer.channels.iter().zip(one).zip(nine) {
                 for (at, value) in auto.iter().enumerate() {
-                    let wanted = if has_nine && at_edges[at] { nine[at] } else { one[at] };
+                    let wanted = match (is_mean && at_edges[at], has_nine(at)) {
+                        (false, _) => one[at],
+                        (true, true) => nine[at],
+                        (true, false) => continue,
+                    };
                     let context = format!("seed {seed}, {} of pixel {at}: {:?}", layer.kind, stage.scene);
                     assert_eq!(value.to_bits(), wanted.to_bits(), "{context}");
                 }
@@ -81,7 +97,11 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
         }
         let pixels = at_edges.len();
         assert_eq!(auto.counts.refined_pixels, edges as u64, "seed {seed}");
-        assert_eq!(auto.counts.rays, (pixels + 8 * edges) as u64, "seed {seed}");
+        // Four further rays, or eight.
+        let further = auto.counts.rays as usize - pixels;
+        assert_eq!(further % 4, 0);
+        assert!((4 * edges..=8 * edges).contains(&further), "seed {seed}: {further} of {edges}");
+        (fives, nines) = (fives + 2 * edges - further / 4, nines + further / 4 - edges);
         assert_eq!([one.counts.refined_pixels, nine.counts.refined_pixels], [0; 2]);
         // Of each nine rays the middle one's samples were counted before.
         let bounds = [one.counts.samples, nine.counts.samples];
@@ -90,8 +110,44 @@ fn each_pixel_is_that_of_one_ray_or_of_nine() {
         kept += usize::from(edges > 0 && edges < pixels);
         lined += usize::from(edges > 0 && lines.is_some());
     }
-    println!("{refined} scenes with edges, {kept} of them with other pixels, {lined} with lines");
+    println!("{refined} scenes with edges, {kept} of them with other pixels, {lined} with lines; {fives} {nines}");
     assert!(refined > 70 && kept > 50 && lined > 20, "{refined} {kept} {lined}");
+    assert!(fives > 500 && nines > 500, "{fives} {nines}");
+}
+
+/// The rays of a pixel are pixels of a picture of three times the size: a pixel at an edge is the mean of five of them, or
+/// of nine if two of the five differ by more than the contrast.
+#[test]
+fn five_rays_ask_for_nine() {
+    let [mut fives, mut nines] = [0; 2];
+    for seed in 12_400..12_440 {
+        let mut stage = stage(seed).with(|s| s.picture.layers = vec![LayerKind::Beauty]);
+        // A picture behind has a size.
+        stage.behind = None;
+        let contrast = stage.scene.picture.contrast;
+        let of =
+            |samples, size| stage.with(|s| (s.picture.samples, s.picture.size) = (samples, size)).render().pixels();
+        let [width, height] = stage.scene.picture.size;
+        let fine = of(RaysPerPixel::Across(1), [3 * width, 3 * height]);
+        let [auto, one] = [RaysPerPixel::Auto, RaysPerPixel::Across(1)].map(|samples| of(samples, [width, height]));
+        let pixels: Vec<Rgba> = one.iter().copied().map(displayed).collect();
+        for (at, color) in auto.into_iter().enumerate() {
+            let ray = |part: usize| fine[(3 * (at / width) + part / 3) * 3 * width + 3 * (at % width) + part % 3];
+            let is_edge = around(at, [width, height]).any(|near| differ(pixels[at], pixels[near], contrast));
+            let five = FIVE.map(|part| displayed(ray(part)));
+            let are_apart = five.iter().any(|a| five.iter().any(|b| differ(*a, *b, contrast)));
+            let parts: Vec<usize> = match (is_edge, are_apart) {
+                (false, _) => vec![4],
+                (true, false) => FIVE.to_vec(),
+                (true, true) => (0..9).collect(),
+            };
+            let mean = |c: usize| parts.iter().map(|&part| ray(part)[c]).sum::<f64>() / parts.len() as f64;
+            // A ray through the same point by another way is rounded otherwise.
+            assert!((0..4).all(|c| (color[c] - mean(c)).abs() < 1e-9), "seed {seed}, pixel {at}: {color:?} {parts:?}");
+            (fives, nines) = (fives + usize::from(parts.len() == 5), nines + usize::from(parts.len() == 9));
+        }
+    }
+    assert!(fives > 100 && nines > 100, "{fives} {nines}");
 }
 
 /// Tiles, lanes, threads and the order of samples change no bit and no count; layers change none of the picture.

@@ -125,6 +125,8 @@ pub(super) fn add(
         ray::add_lattice(&mut of_selection, &part_shot, &placed.selection)?;
         volumeshop::selection::add(&mut of_selection, selection, inputs.data.selections[part.object], &scales_of_part);
         let is_of_volume = std::ptr::eq(of_part.data.volume, inputs.data.main.volume) && !is_moved;
+        // On a cut of one alone their samples differ.
+        let is_of_volume = is_of_volume && part.clipping.planes == shot.clipping.planes;
         volumeshop::part::add(
             &mut of_this,
             selection,

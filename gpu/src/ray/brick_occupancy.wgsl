@@ -17,5 +17,5 @@ fn skip_brick(ray: Ray, sample: Sample) -> i32 {
     let side = BRICK * (brick + select(vec3(1 - far), vec3(far), d > vec3<real>()));
     let parallel = abs(d) <= vec3<real>(1.0e-20);
     let way = select((vec3<real>(side) - sample.position) / d, vec3<real>(4.0e6), parallel);
-    return sample.k + max(i32(ceil(min(way.x, min(way.y, way.z)) - 0.01)), 1);
+    return sample.k + max(i32(ceil(min(way.x, min(way.y, way.z)) + sample.offset - 0.01)), 1);
 }

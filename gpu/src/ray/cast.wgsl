@@ -7,6 +7,17 @@ const UNFINISHED = -2.0e30;
 // Whether a loop over samples ended before its last one: software drivers end shaders that loop too often, without a word.
 var<private> is_unfinished: bool;
 
+// Sample k where it is evaluated, without its value.
+fn sample_on(ray: Ray, k: i32) -> Sample {
+    var sample: Sample;
+    let steps = steps_to(k);
+    sample.k = k;
+    sample.offset = steps - real(k);
+    sample.position = place_on(ray, steps);
+    sample.at = locate(sample.position);
+    return sample;
+}
+
 // Lays the samples of a run behind what is there.
 fn cast_samples(ray: Ray, run: vec2<i32>, seen: Front) -> Front {
     var front = seen;
@@ -14,10 +25,7 @@ fn cast_samples(ray: Ray, run: vec2<i32>, seen: Front) -> Front {
     var k = run.x;
     var is_closed = false;
     for (; k <= run.y; k++) {
-        var sample: Sample;
-        sample.k = k;
-        sample.position = position(ray, k);
-        sample.at = locate(sample.position);
+        var sample = sample_on(ray, k);
         let next = next_plane(ray, sample);
         if (next > k) {
             // What lies before that plane shows nothing.

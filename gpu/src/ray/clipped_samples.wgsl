@@ -1,9 +1,16 @@
 // Clip planes, and cuts: places where a ray comes out of what they cut away ([RAY-8]).
 // Twin: reference/src/ray/clipped_samples.rs
 
-// The first sample behind a cut, and the plane that the ray crosses last before it; -1 if it crosses none.
+// The first sample behind a cut, the plane that the ray crosses last before it, and where it does, in steps from the anchor;
+// plane -1 if it crosses none.
 var<private> cut_k: i32;
 var<private> cut_plane: i32;
+var<private> cut_steps: real;
+
+// The place at which sample k is evaluated, in steps from the anchor: on a cut that of the plane.
+fn steps_to(k: i32) -> real {
+    return select(real(k), cut_steps, cut_plane >= 0 && k == cut_k);
+}
 
 // The samples of a run that no plane cuts away, and the cut that it begins with. A sample is cut away if its position is.
 fn clip_run(ray: Ray, run: vec2<i32>) -> vec2<i32> {
@@ -41,6 +48,7 @@ fn clip_run(ray: Ray, run: vec2<i32>) -> vec2<i32> {
                 last = crossing;
                 cut_plane = i;
                 cut_k = left.x;
+                cut_steps = clamp(crossing, real(cut_k - 1), real(cut_k));
             }
         }
     }

@@ -28,9 +28,14 @@ fn ray_through(x: real, y: real) -> Ray {
     return ray;
 }
 
+// The index position so many steps from the anchor.
+fn place_on(ray: Ray, steps: real) -> vec3<real> {
+    return ray.origin + ray.along * (steps * ray.depth_step);
+}
+
 // The index position of sample k, counted from the anchor.
 fn position(ray: Ray, k: i32) -> vec3<real> {
-    return ray.origin + ray.along * (real(k) * ray.depth_step);
+    return place_on(ray, real(k));
 }
 
 // The eye depth of sample k, counted from the anchor.

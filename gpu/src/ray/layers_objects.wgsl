@@ -10,12 +10,13 @@ fn begin_coverage(ray: Ray) {
     ray_coverage = array<real, COVERING>();
 }
 
-// Takes in a sample before `collect_layers` adds it to A. An iso-surface, which has an offset, is the background's.
+// Takes in a sample before `collect_layers` adds it to A. An iso-surface, which lies behind its
+// plane, is the background's.
 fn collect_coverage(ray: Ray, sample: Sample, a: Attributes, alpha: real) {
     let w = (1.0 - ray_sums.opacity) * alpha * left_by_lines();
     for (var object = 0; object < COVERING; object++) {
         var fraction = select(real(0.0), real(1.0), object == 0);
-        if (sample.offset == 0.0) {
+        if (sample.offset <= 0.0) {
             fraction = fraction_of_object(object, sample.k);
         }
         ray_coverage[object] += w * fraction;

@@ -2,7 +2,7 @@
 // Twin: reference/src/ray/composite/layers.rs
 
 fn collect_coverage_without_meshes(ray: Ray, sample: Sample, a: Attributes, alpha: real) {
-    if (met_mesh < 0 || sample.offset == 0.0) {
+    if (met_mesh < 0 || sample.offset <= 0.0) {
         collect_coverage(ray, sample, a, alpha);
     }
 }

@@ -159,6 +159,9 @@ pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) 
     shader.stages.samples_left.push("clip_run");
 }
 
+/// Samples that no plane cuts.
+pub(crate) const UNCLIPPED: Module = module!("unclipped_samples");
+
 /// Adds the shading of samples on cuts, after measures and shading are added.
 pub(crate) fn add_cuts(shader: &mut Shader) {
     shader.stages.measured.push("measure_cut");

@@ -16,8 +16,8 @@ const GROUP: u32 = 8;
 /// software it keeps progress reports coming.
 const SAMPLES_AT_ONCE: [f64; 2] = [(1u64 << 28) as f64, (1u64 << 26) as f64];
 
-/// Further rays of a pixel at an edge, across and down ([RAY-7]).
-const REFINED_ACROSS: usize = 3;
+/// The most rays of a pixel at an edge ([RAY-7]).
+const MOST_AT_EDGES: usize = 9;
 
 /// Passes over the pixels of a picture.
 pub(crate) struct RayPasses {
@@ -81,14 +81,14 @@ impl RayPasses {
         // Edges are found in the rows around those that are refined, too.
         let around = canvas.picture.rows_around(&rows, height);
         block.set("top_row", around.start as f64);
-        let draw = (&self.draw, around.clone(), self.rays_across);
-        let refine = self.refinement.as_ref().filter(|_| self.refines).map(|pass| (pass, rows.clone(), REFINED_ACROSS));
+        let parts = self.rays_across * self.rays_across;
+        // Sums of layers stay in a shader; a beauty alone is drawn ray by ray. A pixel at an edge is drawn at once.
+        let draw = (&self.draw, around.clone(), [parts, if self.is_beauty_alone { 1 } else { parts }]);
+        let refine = self.refinement.as_ref().filter(|_| self.refines);
+        let refine = refine.map(|pass| (pass, rows.clone(), [MOST_AT_EDGES; 2]));
         let passes = 1 + usize::from(refine.is_some());
-        for (number, (pass, pass_rows, across)) in std::iter::once(draw).chain(refine).enumerate() {
+        for (number, (pass, pass_rows, [parts, at_once])) in std::iter::once(draw).chain(refine).enumerate() {
             let group = canvas.group(&pass.layout, number > 0, further)?;
-            let parts = across * across;
-            // Sums of layers stay in a shader; a beauty alone is drawn ray by ray.
-            let at_once = if self.is_beauty_alone { 1 } else { parts };
             let most = SAMPLES_AT_ONCE[usize::from(canvas.gpu.is_software())];
             let band = ((most / (self.samples_a_row * at_once as f64)) as usize).max(GROUP as usize);
             for first in pass_rows.clone().step_by(band) {

@@ -41,7 +41,8 @@ fn measure_along_ray(ray: Ray, sample: Sample, known: Attributes) -> Attributes 
             a.kappa = turn_along_ray(a.normal, asked_normal, ray.step);
         }
     }
-    asked_plane = sample.k;
+    // The next sample looks back to the lattice, which a cut is beside.
+    asked_plane = select(sample.k, -0x7fffffff, sample.offset != 0.0);
     asked_has_normal = a.has_normal;
     asked_normal = a.normal;
     return a;

@@ -10,7 +10,7 @@ fn level_below_last(ray: Ray, sample: Sample, a: Attributes) -> real {
     let bend = params.curvature_bias * min(abs(a.kappa) * params.mip_voxel, 1.0);
     var p = params.rays_in_voxel;
     if (PERSPECTIVE) {
-        p = p / depth_of(ray, sample.k);
+        p = p / (depth_of(ray, sample.k) + sample.offset * ray.depth_step);
     }
     let per_ray = 0.5 * max(params.assumed_turn, bend) / p;
     // Past every style's first level, where there is no normal number.

@@ -1,10 +1,10 @@
 // kappa_v at an iso-surface, from the normal one step before it ([STF-5], [HATCH-14]).
 // Twin: reference/src/style_transfer_functions/curvature_along_ray.rs
 
-// Samples of the volume lie on their planes, places on the surface behind them.
+// Samples of the volume lie on their planes or, on cuts, before them; places on the surface lie behind.
 fn measure_along_ray_at_surface(ray: Ray, sample: Sample, known: Attributes) -> Attributes {
     var a = known;
-    if (sample.offset == 0.0 || !a.has_normal) {
+    if (sample.offset <= 0.0 || !a.has_normal) {
         return a;
     }
     a.kappa = 0.0;

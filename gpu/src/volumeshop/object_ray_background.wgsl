@@ -25,6 +25,11 @@ fn aim_background(ray: Ray) {
     here_k = NO_SAMPLE;
 }
 
+// The place at which the background's sample k is evaluated, in steps from the anchor.
+fn own_steps(k: i32) -> real {
+    return steps_to(k);
+}
+
 // Looks up the volume's sample k once; none outside the box and in masked cells.
 fn look_here(k: i32) -> bool {
     if (here_k == k) {
@@ -33,9 +38,7 @@ fn look_here(k: i32) -> bool {
     here_k = k;
     is_here = own_box.x <= k && k <= own_box.y;
     if (is_here) {
-        here.k = k;
-        here.position = position(own_ray, k);
-        here.at = locate(here.position);
+        here = sample_on(own_ray, k);
         is_here = next_number(own_ray, here) == k;
     }
     if (is_here) {
@@ -50,11 +53,7 @@ fn background_set(k: i32, weight: real) -> Found {
     if (!(weight > 0.0) || k < own_run.x || k > own_run.y || is_ghosted_away(k)) {
         return Found();
     }
-    var sample: Sample;
-    sample.k = k;
-    sample.position = position(own_ray, k);
-    sample.at = locate(sample.position);
-    if (next_plane(own_ray, sample) > k || !look_here(k)) {
+    if (next_plane(own_ray, sample_on(own_ray, k)) > k || !look_here(k)) {
         return Found();
     }
     here.place = node_place(locate_value(here.s));

@@ -26,5 +26,5 @@ fn sow_beside(k: i32) {
     if (!is_in_part(k) || (BY_VALUE && !look_to_sow(k))) {
         return;
     }
-    sow_part(k, membership_at(k, part_sample.s));
+    sow_part(k, membership_at(steps_to(k), part_sample.s));
 }

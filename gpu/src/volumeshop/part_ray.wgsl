@@ -23,9 +23,7 @@ fn is_in_part(k: i32) -> bool {
 }
 
 fn place_part(k: i32) {
-    part_sample.k = k;
-    part_sample.position = position(part_ray, k);
-    part_sample.at = locate(part_sample.position);
+    part_sample = sample_on(part_ray, k);
 }
 
 // Looks up sample k once, which lies in the range.
@@ -43,7 +41,7 @@ fn part_membership(k: i32) -> real {
     if (!is_in_part(k) || (BY_VALUE && !look_at_part(k))) {
         return 0.0;
     }
-    return membership_at(k, part_sample.s);
+    return membership_at(steps_to(k), part_sample.s);
 }
 
 // The set at sample k with the membership of its selection set.

@@ -5,5 +5,5 @@ fn part_takes(k: i32) -> real {
     if (!is_in_selection(k) || (BY_VALUE && !look_here(k))) {
         return 0.0;
     }
-    return membership_at(k, here.s);
+    return membership_at(own_steps(k), here.s);
 }

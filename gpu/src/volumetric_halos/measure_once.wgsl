@@ -10,7 +10,7 @@ fn forget_sample() {
 }
 
 fn measure_gradient_once(ray: Ray, sample: Sample, known: Attributes) -> Attributes {
-    // An iso-surface lies between planes.
+    // An iso-surface and a cut lie between planes.
     if (sample.offset != 0.0) {
         return measure_gradient(ray, sample, known);
     }

@@ -283,7 +283,7 @@ fn add_stages(
     let mut kept: Vec<Kept> = Vec::new();
     let clips = has(&stages.samples_left, "clip_run");
     if clips.is_some() {
-        kept.extend([Kept::whole("cut_k"), Kept::whole("cut_plane")]);
+        kept.extend([Kept::whole("cut_k"), Kept::whole("cut_plane"), Kept::real("cut_steps")]);
     }
     let mut seed_kept = kept.clone();
     let cutaways = shot.combination.iter().flat_map(volumeshop::cutaways).count();

@@ -50,10 +50,7 @@ fn halo_planes(@builtin(global_invocation_id) id: vec3<u32>) {
             own.next = NO_PLANE;
         }
         if ((has_step && k <= own.last) || k == next_seed) {
-            var sample: Sample;
-            sample.k = k;
-            sample.position = position(ray, k);
-            sample.at = locate(sample.position);
+            var sample = sample_on(ray, k);
             // The planes up to these show and seed nothing.
             let after = select(k, next_shown(ray, sample, own.last), has_step);
             let after_seed = select(k, next_sown(ray, sample, last_seed), k == next_seed);

@@ -19,5 +19,5 @@ fn skip_seed_brick(ray: Ray, sample: Sample) -> i32 {
             way = min(way, (side - sample.position[axis]) / d - 0.01);
         }
     }
-    return sample.k + max(i32(ceil(way)), 1);
+    return sample.k + max(i32(ceil(way + sample.offset)), 1);
 }

@@ -4,6 +4,17 @@ use super::lattice::IndexRay;
 use crate::number::{Real, Vec3};
 use drypoint_scene::clip::{ClipPlane, ClipPlanes};
 
+/// The place where a ray leaves what planes cut away of a volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct CutPlace {
+    /// The first sample behind the cut.
+    pub(super) k: i64,
+    /// The index of the plane.
+    pub(super) plane: usize,
+    /// The eye depth at which the ray crosses the plane.
+    pub(super) depth: f64,
+}
+
 impl<R: Real> IndexRay<R> {
     /// The samples of a run inside the box [lo, hi] that no plane cuts away, as the closed range first..=last.
     ///
@@ -41,9 +52,9 @@ impl<R: Real> IndexRay<R> {
         [from, to]
     }
 
-    /// The first sample behind a cut, and the index of the plane through which the ray reaches it: the last plane that
-    /// the ray crosses. Returns none if no sample before it in the run is cut away.
-    pub(super) fn cut_sample(&self, clip: &ClipPlanes, ends: [Vec3<R>; 2]) -> Option<(i64, usize)> {
+    /// The first sample behind a cut, and where the ray crosses the plane through which it reaches the sample: the last
+    /// plane that it crosses. Returns none if no sample before it in the run is cut away.
+    pub(super) fn cut_sample(&self, clip: &ClipPlanes, ends: [Vec3<R>; 2]) -> Option<CutPlace> {
         if clip.is_empty() {
             return None;
         }
@@ -60,7 +71,11 @@ impl<R: Real> IndexRay<R> {
         });
         // If several planes are crossed together, the first one in the list counts.
         let last = depths.reduce(|last, next| if next.1 > last.1 { next } else { last });
-        last.map(|(plane, _)| (first, plane))
+        last.map(|(plane, depth)| {
+            // Against rounding: the ray comes out of the plane between both samples.
+            let [before, at] = [first - 1, first].map(|k| self.depth(k).to_f64());
+            CutPlace { k: first, plane, depth: depth.max(before).min(at) }
+        })
     }
 
     /// a and b of a + b·depth, which is above 0 where the plane cuts the ray away.
@@ -108,21 +123,22 @@ mod tests {
         };
         let found = |planes: Vec<ClipPlane>| {
             let (ray, clip) = (along_x(), ClipPlanes(planes));
-            (ray.left_by(&clip, ends, ray.inside(ends)), ray.cut_sample(&clip, ends))
+            let cut = ray.cut_sample(&clip, ends).map(|cut| (cut.k, cut.plane, cut.depth));
+            (ray.left_by(&clip, ends, ray.inside(ends)), cut)
         };
         // The box has the samples 4 to 11, at x = ½ to 7½.
         assert_eq!(found(vec![]), ([4, 11], None));
-        assert_eq!(found(vec![plane(2.0, [-1.0, 0.0, 0.0])]), ([6, 11], Some((6, 0))));
+        assert_eq!(found(vec![plane(2.0, [-1.0, 0.0, 0.0])]), ([6, 11], Some((6, 0, 6.0))));
         // A sample on the plane itself is left.
-        assert_eq!(found(vec![plane(2.5, [-1.0, 0.0, 0.0])]), ([6, 11], Some((6, 0))));
+        assert_eq!(found(vec![plane(2.5, [-1.0, 0.0, 0.0])]), ([6, 11], Some((6, 0, 6.5))));
         assert_eq!(found(vec![plane(5.5, [1.0, 0.0, 0.0])]), ([4, 9], None));
         // A plane that ends before the first sample cuts none; the last plane that is crossed counts.
         assert_eq!(found(vec![plane(0.25, [-1.0, 0.0, 0.0])]), ([4, 11], None));
         let two = vec![plane(3.2, [-1.0, 0.5, 0.0]), plane(3.4, [-1.0, 0.0, 0.0])];
-        assert_eq!(found(two), ([7, 11], Some((7, 1))));
+        assert_eq!(found(two), ([7, 11], Some((7, 1, 7.4))));
         // Of two planes of which one cuts the sample before, it is that one.
         let two = vec![plane(3.4, [-1.0, 0.0, 0.0]), plane(2.9, [-1.0, 0.0, 0.0])];
-        assert_eq!(found(two), ([7, 11], Some((7, 0))));
+        assert_eq!(found(two), ([7, 11], Some((7, 0, 7.4))));
         // Beside the ray: all or nothing.
         assert_eq!(found(vec![plane(0.0, [0.0, 1.0, 0.0])]), ([4, 11], None));
         let below = ClipPlane::in_index(DVec3::new(0.0, 3.9, 0.0), DVec3::Y, &grid);
@@ -175,9 +191,10 @@ mod tests {
         let [from, to] = ray.left_by(clip, ends, [first, last]);
         prop_assert_eq!((from..=to).collect::<Vec<_>>(), all);
         let cut = ray.cut_sample(clip, ends);
-        prop_assert_eq!(cut.map(|(k, _)| k), (from <= to && from > first).then_some(from));
-        if let Some((k, plane)) = cut {
+        prop_assert_eq!(cut.map(|cut| cut.k), (from <= to && from > first).then_some(from));
+        if let Some(CutPlace { k, plane, depth }) = cut {
             prop_assert!(clip.0[plane].beyond(ray.position(k - 1).to_glam()) > 0.0);
+            prop_assert!(ray.depth(k - 1).to_f64() <= depth && depth <= ray.depth(k).to_f64());
         }
         Ok(())
     }

@@ -93,6 +93,15 @@ impl<R: Real> IndexRay<R> {
         Vec3::new(R::on_ray(o.x, a.x, t), R::on_ray(o.y, a.y, t), R::on_ray(o.z, a.z, t))
     }
 
+    /// The index position at an eye depth that need not be a sample's.
+    pub(super) fn position_at(&self, depth: R) -> Vec3<R> {
+        let (o, a) = (self.origin, self.along);
+        // An error of the depth moves the position along the ray.
+        let error = depth - R::from_f64(depth.to_f64());
+        let on_axis = |o: R, a: R| R::on_ray(o, a, depth) + a * error;
+        Vec3::new(on_axis(o.x, a.x), on_axis(o.y, a.y), on_axis(o.z, a.z))
+    }
+
     /// The samples inside the closed box [lo, hi] of index space and beyond `near`, as the closed range first..=last.
     /// The range is empty if first > last.
     ///
@@ -114,7 +123,7 @@ impl<R: Real> IndexRay<R> {
 
     /// The samples that no plane cuts away and that can lie in visible bricks, as closed ranges first..=last in order.
     /// The depths of the bricks are [`RayIntervals::intervals`]. Without boxes, all samples that no plane cuts away are
-    /// returned.
+    /// returned. The first sample behind a cut is always among them, since it is evaluated on the plane ([RAY-8]).
     ///
     /// The bounds of intervals are rounded outwards to samples, so that neighbouring intervals can overlap. No sample
     /// is in two ranges, and none is outside the volume.
@@ -127,12 +136,11 @@ impl<R: Real> IndexRay<R> {
     ) -> impl Iterator<Item = [i64; 2]> + use<'b, R> {
         let (whole, intervals) = (intervals.is_none(), intervals.unwrap_or(&[]));
         let is_met = whole || !intervals.is_empty();
-        let [first, last] = if is_met { self.left_by(clip, ends, self.inside(ends)) } else { [1, 0] };
-        whole
-            .then_some([first, last])
-            .into_iter()
-            .filter(|[first, last]| first <= last)
-            .chain(self.parts([first, last], intervals))
+        let inside = if is_met { self.inside(ends) } else { [1, 0] };
+        let [first, last] = self.left_by(clip, ends, inside);
+        let of_cut = first + i64::from(first > inside[0]);
+        let begin = if whole { [first, last] } else { [first, last.min(of_cut - 1)] };
+        Some(begin).into_iter().filter(|[first, last]| first <= last).chain(self.parts([of_cut, last], intervals))
     }
 
     /// The samples at some depths, limited to a range.

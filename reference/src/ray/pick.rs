@@ -113,7 +113,7 @@ impl<'v, R: Real> RayState<'_, 'v, R, Field<'v, R>> {
         };
         let (object, evaluator) = (&self.prepared.object, &self.evaluator);
         let (position, depth) = match candidate {
-            Candidate::Sample(k) => (evaluator.ray.position(k), evaluator.ray.depth(k).to_f64()),
+            Candidate::Sample(k) => (evaluator.position(k), evaluator.depth(k).to_f64()),
             Candidate::Surface(hit) => (evaluator.inside(hit.t), hit.t),
             Candidate::Mesh(hit) => (evaluator.inside(hit.t), hit.t),
         };

@@ -44,7 +44,7 @@ pub(super) struct Prepared<'v, R> {
     pub(super) eye_axes: EyeAxes<R>,
     /// n of the n×n rays of a pixel.
     pub(super) rays_across: usize,
-    /// Contrast to a neighbour above which a pixel gets 3×3 rays; none if no pixel is refined.
+    /// Contrast to a neighbour above which a pixel gets five or nine rays; none if no pixel is refined.
     pub(super) refine_above: Option<f64>,
 }
 

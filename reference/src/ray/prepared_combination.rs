@@ -10,6 +10,7 @@ use crate::number::{Mat3, Real};
 use crate::transfer::Piecewise;
 use crate::volumeshop::far_side::through_box;
 use crate::volumeshop::{FunnelMap, Memberships};
+use drypoint_scene::clip::ClipPlanes;
 use drypoint_scene::counts::Counts;
 use drypoint_scene::glam::{DAffine3, DVec3};
 use drypoint_scene::inputs::{Inputs, ObjectData};
@@ -67,7 +68,7 @@ pub(super) struct PreparedPart<'v, R> {
     pub(super) selection: usize,
     /// Whether the part is drawn where M moves the object.
     pub(super) is_moved: bool,
-    /// Whether the part's samples are those of the background: the same volume at the same place.
+    /// Whether the part's samples are those of the background: the same volume at the same place under the same planes.
     pub(super) is_of_background: bool,
     /// The seeds of halos among the part's samples; none if no halo takes the part.
     pub(super) seeds: Option<PreparedSeeds<'v>>,
@@ -129,7 +130,8 @@ impl<'v, R: Real> PreparedCombination<'v, R> {
         let world = main.anatomy();
         let parts = shot.parts().zip(&inputs.parts).map(|((part, object), data)| {
             let motion = combination.selections[part.object].motion.filter(|_| part.role == Role::Selection);
-            PreparedPart::new((part, object, motion), &shot.halos, (main, data), camera, fields, counts)
+            let data = (main, &shot.clipping.planes, data);
+            PreparedPart::new((part, object, motion), &shot.halos, data, camera, fields, counts)
         });
         let parts: Result<Vec<_>, RenderError> = parts.collect();
         let parts = parts?;
@@ -286,13 +288,13 @@ impl<'v, R: Real> PreparedPart<'v, R> {
     fn new(
         (part, object, motion): (&Part, &Object, Option<DAffine3>),
         halos: &Halos,
-        (main, data): (&Volume, &ObjectData<'v>),
+        (main, planes, data): (&Volume, &ClipPlanes, &ObjectData<'v>),
         camera: &Camera<'_>,
         fields: &mut Fields<'v, R>,
         counts: &mut Counts,
     ) -> Result<Self, RenderError> {
         let volume = data.volume;
-        let is_of_background = std::ptr::eq(volume, main) && motion.is_none();
+        let is_of_background = std::ptr::eq(volume, main) && motion.is_none() && part.clipping.planes == *planes;
         let grid = placed(&grid_in(volume, main.anatomy()), motion).map_err(|_| RenderError::Motion)?;
         // L_T maps vectors of the picture's world to those of the data's.
         let to_data = volume.grid().axes() * grid.inverse_axes();

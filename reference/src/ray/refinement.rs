@@ -1,11 +1,13 @@
-//! Adaptive antialiasing ([RAY-7]): one ray for each pixel, then 3×3 at edges.
+//! Adaptive antialiasing ([RAY-7]): one ray for each pixel, then the corners of its 3×3 at edges, then all nine where
+//! those five differ.
 //!
-//! The first picture has one ray for each pixel. It alone determines which pixels are refined, so neither threads nor
-//! tiles change the result. Its ray is the middle one of the nine of a refined pixel and is not cast again.
+//! The first picture has one ray for each pixel. It alone determines which pixels are refined, and the five rays of a
+//! pixel alone determine whether it gets nine, so neither threads nor tiles change the result. The first ray is the middle
+//! one of the nine and is not cast again.
 
-use super::composite::{Sums, covering_objects};
+use super::composite::{Cast, Sums, covering_objects};
 use super::draw::{BATCH, Casting, Drawn, TilePlace, behind, draw, tiles_across};
-use super::pixel_sum::PixelSum;
+use super::pixel_sum::{PixelSum, over};
 use super::prepared::Prepared;
 use super::progress::FrameProgress;
 use super::tile_work::{CastAll, TileWork};
@@ -22,6 +24,13 @@ pub(super) const ACROSS: usize = 3;
 
 /// Index of the part of a refined pixel whose centre is the pixel's.
 const MIDDLE: usize = ACROSS * ACROSS / 2;
+
+/// The corners of a refined pixel's 3×3, and the middles of its sides.
+const CORNERS: [usize; 4] = [0, 2, 6, 8];
+const SIDES: [usize; 4] = [1, 3, 5, 7];
+
+/// The parts of a refined pixel that are cast, in the order in which they are summed, without and with its sides.
+pub(super) const PARTS: [&[usize]; 2] = [&[0, 2, 4, 6, 8], &[0, 1, 2, 3, 4, 5, 6, 7, 8]];
 
 /// The largest number of bytes for each pixel that refinement needs beside the picture.
 pub(super) fn bytes_a_pixel(layers: &[LayerKind]) -> usize {
@@ -71,6 +80,7 @@ pub(super) fn draw_refined<R: Real>(
             beauty: picture.layer(LayerKind::Beauty).map_or(&[][..], |layer| &layer.channels),
             sums: &sums,
             refined: &refined,
+            contrast,
         };
         let refine = |tile: usize| {
             if progress.is_stopped() {
@@ -114,6 +124,8 @@ struct FirstPicture<'p> {
     sums: &'p [Option<Box<Sums>>],
     /// Which pixels are refined.
     refined: &'p [bool],
+    /// The largest difference between rays of which no more are cast.
+    contrast: f64,
 }
 
 /// The refined pixels of a tile.
@@ -127,8 +139,8 @@ struct RefinedTile {
 }
 
 impl FirstPicture<'_> {
-    /// Casts the eight further rays of the refined pixels of a tile. The nine rays are summed in the order of their parts,
-    /// so that the pixel is that of 3×3 rays everywhere, bit for bit.
+    /// Casts the further rays of the refined pixels of a tile. Rays are summed in the order of their parts, so that a pixel
+    /// of nine is that of 3×3 rays everywhere, bit for bit.
     fn refine<R: Real>(
         &self,
         prepared: &Prepared<'_, R>,
@@ -149,23 +161,36 @@ impl FirstPicture<'_> {
         if pixels.is_empty() {
             return tile;
         }
-        // The eight rays of a pixel follow each other, so that they can be cast side by side.
-        let further = || (0..ACROSS * ACROSS).filter(|&part| part != MIDDLE);
-        let points: Vec<[f64; 2]> =
-            pixels.iter().flat_map(|&pixel| further().map(move |part| place.point(pixel, part, ACROSS))).collect();
-        let mut casts = Vec::with_capacity(points.len());
-        let (mut boxes, counts) = (place.boxes(prepared), &mut tile.counts);
-        cast_all(TileWork { points: &points, boxes: boxes.as_mut(), counts, casts: &mut casts });
+        // The four rays of a pixel follow each other, so that they can be cast side by side.
+        let mut boxes = place.boxes(prepared);
+        let mut cast = |pixels: &[[usize; 2]], parts: [usize; 4]| {
+            let points = pixels.iter().flat_map(|&pixel| parts.map(|part| place.point(pixel, part, ACROSS)));
+            let points: Vec<[f64; 2]> = points.collect();
+            let mut casts = Vec::with_capacity(points.len());
+            let (boxes, counts) = (boxes.as_mut(), &mut tile.counts);
+            cast_all(TileWork { points: &points, boxes, counts, casts: &mut casts });
+            casts
+        };
+        let corners = cast(&pixels, CORNERS);
+        // The pixels whose five rays differ.
         let behind = behind(background, width);
-        let mut casts = casts.into_iter();
-        for pixel in pixels {
+        let is_apart = |(pixel, corners): (&[usize; 2], &[Cast])| {
+            let behind = behind(in_picture(*pixel));
+            let colors = corners.iter().map(|cast| over(cast.rgba, behind, prepared.encode));
+            are_apart(colors.chain([color_at(self.beauty, index(*pixel))]).map(displayed), self.contrast)
+        };
+        let are_apart: Vec<bool> = pixels.iter().zip(corners.chunks_exact(CORNERS.len())).map(is_apart).collect();
+        let apart: Vec<_> = pixels.iter().zip(&are_apart).filter(|(_, is)| **is).map(|(pixel, _)| *pixel).collect();
+        let mut sides = cast(&apart, SIDES).into_iter();
+        let mut corners = corners.into_iter();
+        for (pixel, &is_apart) in pixels.into_iter().zip(&are_apart) {
             let at = index(pixel);
             let mut sum = PixelSum::default();
-            for part in 0..ACROSS * ACROSS {
+            for &part in PARTS[usize::from(is_apart)] {
                 if part == MIDDLE {
                     let sums = self.sums.get(at).and_then(|sums| sums.as_deref());
                     sum.add_means(color_at(self.beauty, at), sums);
-                } else if let Some(cast) = casts.next() {
+                } else if let Some(cast) = if CORNERS.contains(&part) { corners.next() } else { sides.next() } {
                     sum.add(prepared, cast, behind(in_picture(pixel)));
                 }
             }
@@ -191,6 +216,18 @@ fn displayed([r, g, b, alpha]: Rgba) -> [f64; 4] {
 /// Whether two displayed pixels differ by more than `contrast` in a channel.
 fn part(a: &[f64; 4], b: &[f64; 4], contrast: f64) -> bool {
     a.iter().zip(b).any(|(a, b)| (a - b).abs() > contrast)
+}
+
+/// Whether two of some displayed rays differ by more than `contrast` in a channel.
+fn are_apart(rays: impl Iterator<Item = [f64; 4]>, contrast: f64) -> bool {
+    let mut ends = [[f64::INFINITY; 4], [f64::NEG_INFINITY; 4]];
+    for ray in rays {
+        for (c, value) in ray.into_iter().enumerate() {
+            ends[0][c] = ends[0][c].min(value);
+            ends[1][c] = ends[1][c].max(value);
+        }
+    }
+    part(&ends[0], &ends[1], contrast)
 }
 
 /// Whether each pixel of a picture differs from one of its eight neighbours, row by row.

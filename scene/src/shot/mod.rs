@@ -59,7 +59,7 @@ pub struct Shot {
     pub lattice: Lattice,
     /// n of the n×n rays of a pixel ([RAY-6]), before it is refined.
     pub rays_across: usize,
-    /// Contrast to a neighbour above which a pixel of one ray gets 3×3 ([RAY-7]); none: no pixel is refined.
+    /// Contrast to a neighbour above which a pixel of one ray gets five or nine ([RAY-7]); none: no pixel is refined.
     pub refine_above: Option<f64>,
     /// The number type of samples.
     pub number: Number,

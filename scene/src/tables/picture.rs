@@ -38,7 +38,7 @@ table! {
         height: key("IO-7", EXTENT,
             |p| p.extent().map(|[_, length]| length),
             |p, v| (p.lengths[1], p.size[1]) = (Some(v), pixels(v, p.dpi))).absent("`size`");
-        /// Rays a pixel: n×n, or "auto", one and 3×3 at edges. With halos, style mip-maps or strokes inside the volume "auto" is 2×2 everywhere.
+        /// Rays a pixel: n×n, or "auto", one, and five or nine at edges. With halos, style mip-maps or strokes inside the volume "auto" is 2×2 everywhere.
         samples: RaysPerPixel = RaysPerPixel::Auto, key("RAY-6", RaysPerPixelKind);
         /// Edges of samples = "auto": places where neighbours differ by more in R, G, B as displayed, or in opacity.
         contrast: f64 = 0.0625, key("RAY-7", Number { bounds: Bounds::UNIT, unit: "" });
@@ -60,7 +60,7 @@ table! {
 /// Rays of each pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RaysPerPixel {
-    /// One, and 3×3 where the picture has edges ([RAY-7]).
+    /// One, and five or nine where the picture has edges ([RAY-7]).
     Auto,
     /// n×n ([RAY-6]).
     Across(usize),

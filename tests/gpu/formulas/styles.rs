@@ -76,7 +76,8 @@ fn normals(next: &mut impl FnMut() -> f64) -> Vec<[f64; 2]> {
 fn lookups(more: &[&str]) -> String {
     let before =
         ["number/arithmetic", "number/math", "number/bilinear", "number/color", "style_transfer_functions/sphere_map"];
-    let stubs = "struct Ray { depth: real, }\nstruct Sample { k: i32, place: NodePlace, }
+    let stubs =
+        "struct Ray { depth: real, depth_step: real, }\nstruct Sample { k: i32, offset: real, place: NodePlace, }
         struct Attributes { kappa: real, magnitude: real, }\nstruct NodePlace { node: i32, w: real, alpha_u: real, }
         const PERSPECTIVE = true;\nfn depth_of(ray: Ray, k: i32) -> real { return ray.depth; }\n";
     format!("{stubs}{}", modules(&[&before[..], more].concat()))
@@ -160,7 +161,7 @@ fn levels_of_detail() {
         lists: &[(12, &[0.0])],
         texels: &[(10, &[[0.0; 4]])],
         words: &[(11, &[0, 1, 1, 0])],
-        before: "let ray = Ray(x[0]);\nlet a = Attributes(x[1], x[2]);\nlet c = sft(0, vec2<real>(), 0.0).r;",
+        before: "let ray = Ray(x[0], 1.0);\nlet a = Attributes(x[1], x[2]);\nlet c = sft(0, vec2<real>(), 0.0).r;",
         results: &["level_below_last(ray, Sample(), a) + c"],
         ..ShaderKernel::default()
     };
@@ -217,8 +218,8 @@ fn mixes_of_styles() {
             before: "let n = vec2<real>(x[5], x[6]);
                 let below = NodePlace(i32(x[0]), x[1], 0.5);
                 node_patch = NodePatch(below, NodePlace(i32(x[2]), x[3], 0.5), x[4], 0.5);
-                let one = style_between(Sample(0, below), n, 0.0);
-                let two = style_between_two(Sample(0, below), n, 0.0);",
+                let one = style_between(Sample(0, 0.0, below), n, 0.0);
+                let two = style_between_two(Sample(0, 0.0, below), n, 0.0);",
             results: &["one.r", "one.g", "one.b", "one.a", "two.r", "two.g", "two.b", "two.a"],
             ..ShaderKernel::default()
         };

@@ -41,7 +41,7 @@ fn bounds_notice_small_faults() {
         ),
         ("opacity of a step", colors, "", "return one_minus_exp(ratio * ln_one_minus(alpha)@);", 1.001),
         ("colours over each other", colors, "", "return Front(front.rgb + w * rgb@, front.opacity + w);", 1.001),
-        ("position", colors, "", "return ray.origin + ray.along * (real(k) * ray.depth_step@);", 1.0005),
+        ("position", colors, "", "return ray.origin + ray.along * (steps * ray.depth_step@);", 1.0005),
         ("light", colors, shaded, "let n_l = dot(n, lit.light)@;", 1.002),
         ("highlight", colors, shaded, "let n_h = max(dot(n, sum) / length@, 0.0);", 1.002),
         ("place on a sphere", styles, "", "let half_side = real(side) * 0.5@;", 1.002),

@@ -54,7 +54,7 @@ fn faults_of_rays_and_light_are_noticed_at_their_stage() {
     let clip = "[shading]\n[[clip]]\npoint = [11.3, 11.2, 11.1]\nnormal = [0.2, -1, 0.3]\nspace = \"index\"\ncap = \"#ff0000\"\n";
     for (more, old, new, stage) in [
         // Rays and positions.
-        (phong, "real(k) * ray.depth_step)", "(real(k) + 0.5) * ray.depth_step)", "value"),
+        (phong, "(steps * ray.depth_step)", "((steps + 0.5) * ray.depth_step)", "value"),
         (phong, "ray.origin = anchor_middle() + off *", "ray.origin = anchor_middle() - off *", "value"),
         (phong, "return vec2<real>(x, -y);", "return vec2<real>(x, y);", "value"),
         (
@@ -110,6 +110,7 @@ fn faults_of_rays_and_light_are_noticed_at_their_stage() {
         (clip, "if (beyond(i, p) > 0.0)", "if (beyond(i, p) > 1.0)", "value"),
         (clip, "select(n, -n, dot(n, ray.v) < 0.0)", "select(n, -n, dot(n, ray.v) > 0.0)", "normal"),
         (clip, "shaded.alpha * planes[cut_plane].opacity", "shaded.alpha * 0.5", "opacity"),
+        (clip, "clamp(crossing, real(cut_k - 1), real(cut_k))", "real(cut_k)", "value"),
         // Layers.
         (phong, "ray_sums.normal += w * normal;", "ray_sums.normal += alpha * normal;", "mean normal"),
         (

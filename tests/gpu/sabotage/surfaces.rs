@@ -54,7 +54,7 @@ fn faults_of_curvature_along_the_ray_at_surfaces_are_noticed() {
         &text,
         &[
             ("let t = hit - 1.0;", "let t = hit - 0.5;"),
-            ("if (sample.offset == 0.0 || !a.has_normal)", "if (sample.offset != 0.0 || !a.has_normal)"),
+            ("if (sample.offset <= 0.0 || !a.has_normal)", "if (sample.offset > 0.0 || !a.has_normal)"),
             ("a.kappa = turn_along_ray(a.normal, normal_of(g, ray.v), ray.step);", "a.kappa = 0.0;"),
         ],
     );

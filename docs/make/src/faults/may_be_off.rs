@@ -7,6 +7,9 @@ const GUARD: &str = "a margin against rounding: a box that is passed closely cou
 
 const SKIPPED: &str = "fewer planes are passed over, and those between show nothing";
 const SEARCH: &str = "another step to the same root";
+const EXTREMA: &str = "parts of a cubic end beside its extrema: only two roots that all but touch lie in one part";
+const GUESS: &str = "a first cell, from which the right one is found step by step";
+const BESIDE: &str = "a bound of 2⁻²⁶, below which a normal along v has no direction in the picture";
 const SIGN: &str = "only its sign is used";
 const DOTS: &str = "draws no picture: hidden dots, which `tests/gpu/points.rs` compares";
 
@@ -27,6 +30,9 @@ const MAY_BE_OFF: &[(&str, &str, &str)] = &[
     ("number/math", "sum * r + 1.0 / 39916800.0", SERIES),
     ("number/math", "y * LOG2_E", "the range is reduced by another whole number, and the rest makes up for it"),
     ("ray/brick_occupancy", "ray.along * ray", SKIPPED),
+    ("surface/cubic", "2.0 * d1 + d2", EXTREMA),
+    ("surface/cubic", "d1 * d1 - d0", EXTREMA),
+    ("surface/cubic", "d0 * d2", EXTREMA),
     ("surface/cubic_bracket", "0.5 * (hi - lo)", SEARCH),
     ("surface/cubic_bracket", "(hi - lo) * (left", SEARCH),
     ("surface/cubic_bracket", "right * 0.5", SEARCH),
@@ -36,12 +42,15 @@ const MAY_BE_OFF: &[(&str, &str, &str)] = &[
     ("surface/first_root_stepped", "(leaves - enters) * (real", SEARCH),
     ("surface/first_root_stepped", "before * side_of", SIGN),
     ("surface/first_root_trilinear", "before * side_of", SIGN),
+    ("surface/traversal", "walk.along[a] * enters.t", GUESS),
     ("volume_stippling/hidden", "line.along * t", DOTS),
     ("volume_stippling/hidden", "voxel_x() * n.x", DOTS),
     ("volume_stippling/hidden", "voxel_y() * n.y", DOTS),
     ("volume_stippling/hidden", "voxel_z() * n.z", DOTS),
     ("volume_stippling/hidden", "voxel_along(out) * params", DOTS),
     ("volume_stippling/hidden_clipped", "line.along * kept", DOTS),
+    ("volumetric_halos/direction", "n.x * n.x + n.y", BESIDE),
+    ("volumetric_halos/direction", "n.y * n.y)) <=", BESIDE),
     ("volumetric_halos/seed_bricks", "ray.along[axis] * ray", SKIPPED),
 ];
 

@@ -225,4 +225,32 @@ mod tests {
         jobs().unwrap();
         assert_eq!(may_be_off::unused(&multiplications().unwrap()).collect::<Vec<_>>(), [""; 0]);
     }
+
+    /// The command plants all; here it is a few of them, drawn by lot.
+    #[test]
+    fn a_sample_of_faults_is_noticed() {
+        const SAMPLE: usize = 4;
+        let gpu = match drypoint::gpu::open(Interpolation::Exact) {
+            Ok(gpu) if gpu.has_double() => gpu,
+            _ => return println!("skipped: no adapter with f64"),
+        };
+        let (jobs, all) = (jobs().unwrap(), multiplications().unwrap());
+        let scenes = scenes(&jobs, &gpu).unwrap();
+        let mut seed = 51u64;
+        let mut planted = 0;
+        while planted < SAMPLE {
+            // Knuth's MMIX generator.
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let fault = &all[(seed >> 33) as usize % all.len()];
+            let place = format!("{}.wgsl:{}: {}", fault.module, fault.line, fault.text);
+            match outcome(fault, &scenes, &gpu).unwrap() {
+                Outcome::Integers | Outcome::MayBeOff(_) => {}
+                Outcome::Noticed(scene) => {
+                    println!("{place}: {scene}");
+                    planted += 1;
+                }
+                other => panic!("{place}: {other:?}"),
+            }
+        }
+    }
 }

@@ -116,6 +116,19 @@ const FURTHER: &[(&str, Keys, &str)] = &[
          [[mesh]]\nfile = \"ball.ply\"\nscale = 30\nmove = [-218, -73, 11]\n",
     ),
     (
+        "meshes far before and behind, seen along falling coordinates",
+        &[
+            ("camera.projection", "orthographic"),
+            ("camera.direction", "[-0.5, -0.6, -0.6]"),
+            (
+                "transfer.nodes",
+                "[{ at = 100, color = \"#804020\", opacity = 0 }, { at = 140, color = \"#88ccff\", opacity = 0.02 }]",
+            ),
+        ],
+        "[shading]\n[[mesh]]\nfile = \"ball.ply\"\nscale = 9\nmove = [-32, -37, -46]\n\
+         [[mesh]]\nfile = \"ball.ply\"\nscale = 9\nmove = [79, 84, 93]\n",
+    ),
+    (
         "a mesh with normals",
         LAYERS,
         "[shading]\n[[mesh]]\nfile = \"smooth.ply\"\nscale = [11, 9, 12]\nmove = [24, 12, 24]\n\
@@ -157,6 +170,16 @@ const FURTHER: &[(&str, Keys, &str)] = &[
         &[("sampling.step_along", "ray"), ("volume", "{ file = \"FOLDER/block.nrrd\" }")],
         "[shading]\n[[object]]\nname = \"soft\"\nselection = \"soft.nrrd\"\nmove = [0, 3, 0]\nghosting = 0.7\nfunnel = \"3 px\"\n\
          cut = \"object\"\n",
+    ),
+    (
+        "a funnel on shells, in fine steps",
+        &[
+            ("sampling.step_along", "ray"),
+            ("sampling.step", "0.2 voxels"),
+            ("picture.size", "[64, 64]"),
+            ("volume", "{ file = \"FOLDER/block.nrrd\" }"),
+        ],
+        "[shading]\n[[object]]\nname = \"soft\"\nselection = \"soft.nrrd\"\nmove = [0, 3, 0]\nghosting = 0.7\nfunnel = \"8 px\"\n",
     ),
     ("presets of intersections", &[], PRESETS),
     ("further presets of intersections", &[], FURTHER_PRESETS),

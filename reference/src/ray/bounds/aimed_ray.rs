@@ -64,7 +64,13 @@ impl<'p, 'v> AimedRay<'p, 'v> {
     pub(super) fn evaluator(&self, object: &'p PreparedObject<'v, Bounded>) -> FieldEvaluator<'p, 'v, Bounded> {
         let dirs = object.shader.view_dirs(self.v, self.v_eye);
         let ray = self.in_grid(&object.grid, object.ends);
-        Evaluator::new(object, &object.field, ray, dirs, &self.prepared.eye_axes)
+        let mut evaluator = Evaluator::new(object, &object.field, ray, dirs, &self.prepared.eye_axes);
+        let place = ray.cut_sample(&object.clip.planes, object.ends);
+        if let Some((cut, place)) = evaluator.cut.as_mut().zip(place) {
+            let (_, error) = ray.crossing(&object.clip.planes.0[place.plane]);
+            cut.depth = Bounded::new(place.depth, error);
+        }
+        evaluator
     }
 
     /// The depth from which rays of shaders start.

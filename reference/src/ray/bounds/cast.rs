@@ -127,13 +127,13 @@ impl Tracer<'_, '_> {
         // `last_of_all` stands for the way up to the surface. In f32 the next sample may do so.
         let last_of_all = hit.map_or(i64::MAX - 1, |hit| ray.last_before(hit.t));
         let [last, to] = [last.min(last_of_all + 1), to.min(last_of_all)];
-        // Whether errors leave open which side of a clip plane the previous sample is on. If so, this sample may be the
-        // first behind the cut.
+        // Whether errors leave open which side of a clip plane the previous sample is on, or whether that sample is there.
+        // If so, this sample may be the first behind the cut.
         let mut after_cut = false;
         for k in first..=last {
             let (inside, cut) = (ray.is_inside(k, object.ends), ray.is_cut(k, &object.clip.planes));
             let hangs_on_cut = cut == Answer::Open || after_cut;
-            after_cut = cut == Answer::Open;
+            after_cut = cut == Answer::Open || (cut == Answer::Yes && inside == Answer::Open);
             if inside == Answer::No || cut == Answer::Yes {
                 continue;
             }
@@ -213,9 +213,18 @@ impl Tracer<'_, '_> {
         hit.filter(|_| k == last_of_all).map_or(self.steps, |hit| self.share(k, hit))
     }
 
-    /// The eye depth of sample k.
+    /// The eye depth at which sample k is evaluated.
     fn depth(&self, k: i64) -> Bounded {
-        Bounded::exact(k as f64 + 0.5) * self.depth_step
+        let of_plane = || Bounded::exact(k as f64 + 0.5) * self.depth_step;
+        let of_cut = self.evaluator.cut_depth(k).map(|depth| self.depth_at(depth.value(), depth.error()));
+        of_cut.unwrap_or_else(of_plane)
+    }
+
+    /// An eye depth that is known up to an error in steps that are exact. d/Δ, the plane and the depth are rounded.
+    fn depth_at(&self, t: f64, error: f64) -> Bounded {
+        let rounded = 8.0 * f64::from(f32::EPSILON) * t.abs();
+        let of_step = self.depth_step.error() * (t / self.depth_step.value()).abs();
+        Bounded::new(t, error + rounded + of_step)
     }
 
     /// Adds a sample to the layers. A renderer whose ray may have ended may not add it.
@@ -268,10 +277,7 @@ impl Tracer<'_, '_> {
             Some(Shown { rgb, alpha: Bounded::ONE, quantities: Some(quantities) })
         });
         if let Some(shown) = shown {
-            // d/Δ, the plane and the depth are rounded.
-            let error = 8.0 * f64::from(f32::EPSILON) * hit.t.abs();
-            let of_step = self.depth_step.error() * (hit.t / self.depth_step.value()).abs();
-            let depth = Bounded::new(hit.t, hit.error + error + of_step);
+            let depth = self.depth_at(hit.t, hit.error);
             let has_ended = self.traced.front.opacity.value() >= prepared.stop_at.value();
             let alpha = if has_ended { Bounded::new(0.0, 1.0) } else { Bounded::ONE };
             self.collect(&shown, alpha, depth);
@@ -367,7 +373,7 @@ impl Tracer<'_, '_> {
         let (object, counts) = (&self.prepared.object, &mut Counts::default());
         // The previous normal would be that of a single way.
         self.evaluator.previous = Previous::None;
-        let at = self.evaluator.sampler.place(self.evaluator.ray.position(k));
+        let at = self.evaluator.sampler.place(self.evaluator.position(k));
         if object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
             return None;
         }

@@ -129,7 +129,8 @@ fn draw(prepared: &Prepared<'_, Bounded>, inputs: Inputs<'_>, origin: RayOrigin)
     let behind = behind(inputs.background, width);
     let pixel = |at: usize, across: usize, band: Option<&BandHalos<'_>>| {
         let at = [at % width, at / width];
-        draw_pixel(prepared, (at, behind(at)), across, origin, surface.as_ref(), band)
+        let parts: Vec<usize> = (0..across * across).collect();
+        draw_pixel(prepared, (at, behind(at)), (across, &parts), origin, surface.as_ref(), band).0
     };
     // Halos are in memory for some rows at a time.
     let n = prepared.rays_across;
@@ -146,7 +147,10 @@ fn draw(prepared: &Prepared<'_, Bounded>, inputs: Inputs<'_>, origin: RayOrigin)
         let further = prepared.layers.iter().filter(|layer| **layer != LayerKind::Beauty);
         let is_mean = further.flat_map(|layer| layer.channels().into_iter().map(|_| layer.is_mean())).collect();
         let refinement = edges::Refinement { size: prepared.view.size, contrast, is_mean };
-        pixels = refinement.refined(pixels, &|at| pixel(at, ACROSS, None));
+        pixels = refinement.refined(pixels, &|at, parts| {
+            let at = [at % width, at / width];
+            draw_pixel(prepared, (at, behind(at)), (ACROSS, parts), origin, surface.as_ref(), None)
+        });
     }
     let picture = |number: fn(Bounded) -> f64| {
         let mut more = 0..;
@@ -168,21 +172,23 @@ fn draw(prepared: &Prepared<'_, Bounded>, inputs: Inputs<'_>, origin: RayOrigin)
     }
 }
 
-/// Draws a pixel: the mean of its n×n rays over the background.
+/// Draws a pixel: the mean over the rays of some of its n×n parts, over the background. Returns also how they are
+/// displayed.
 #[inline]
 fn draw_pixel(
     prepared: &Prepared<'_, Bounded>,
     ([i, j], behind): ([usize; 2], Rgba),
-    n: usize,
+    (n, parts): (usize, &[usize]),
     origin: RayOrigin,
     surface: Option<&SurfaceErrors>,
     band: Option<&BandHalos<'_>>,
-) -> BoundedPixel {
+) -> (BoundedPixel, Vec<edges::Displayed>) {
     let mut sum = [Bounded::ZERO; 4];
+    let mut displayed = Vec::with_capacity(parts.len());
     let (mut undecided, mut is_enclosed) = (None, true);
     // The sums of the first ray, and those of all rays.
     let (mut first, mut all) = (None, LayerSums::new());
-    for part in 0..n * n {
+    for &part in parts {
         let centre = |pixel: usize, part: usize| pixel as f64 + (part as f64 + 0.5) / n as f64;
         let point = [centre(i, part % n), centre(j, part / n)];
         let halos = band.map(|band| (band, [i * n + part % n, j * n + part / n]));
@@ -193,7 +199,9 @@ fn draw_pixel(
             all.pool(&sums);
             first.get_or_insert(sums);
         }
-        for (sum, c) in sum.iter_mut().zip(over(traced.front, behind, prepared.encode)) {
+        let color = over(traced.front, behind, prepared.encode);
+        displayed.push(edges::Displayed::new(color, traced.is_enclosed));
+        for (sum, c) in sum.iter_mut().zip(color) {
             *sum += c;
         }
     }
@@ -201,9 +209,10 @@ fn draw_pixel(
     let exponent = prepared.object.field.scale_exponent();
     for &kind in prepared.layers.iter().filter(|_| prepared.collects) {
         let sums = if kind.is_mean() { &all } else { first.as_ref().unwrap_or(&all) };
-        sums.channels(kind, exponent, n * n, &mut more);
+        sums.channels(kind, exponent, parts.len(), &mut more);
     }
-    BoundedPixel { rgba: sum.map(|sum| sum / Bounded::from_index(n * n)), more, undecided, is_enclosed }
+    let rgba = sum.map(|sum| sum / Bounded::from_index(parts.len()));
+    (BoundedPixel { rgba, more, undecided, is_enclosed }, displayed)
 }
 
 /// A ray's colour over the background ([IO-6]), decoded if compositing is encoded ([VAL-3]).

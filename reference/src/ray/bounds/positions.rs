@@ -113,16 +113,22 @@ impl IndexRay<Bounded> {
         Some([from, to])
     }
 
+    /// The depth −a/b at which the ray crosses a plane, and a bound of its error. See [`Self::kept_part`].
+    pub(super) fn crossing(&self, plane: &ClipPlane) -> (f64, f64) {
+        let ((a, b), n, [origin, along]) = (self.beyond(plane), plane.index_normal.abs(), self.line());
+        let t = -a / b;
+        let size = n.dot(origin.abs() + 2.0 * along.abs() * t.abs()) + plane.index_offset.abs();
+        let error = n.dot(DVec3::from_array(self.errors())) + 8.0 * ROUNDING * size;
+        (t, error / b.abs())
+    }
+
     /// Whether errors leave open which plane ends the cut part of the ray, or which side of the plane is seen.
     #[inline]
     pub(super) fn cut_is_open(&self, clip: &ClipPlanes, v: Vec3<Bounded>) -> bool {
-        let errors = self.errors();
         let entry = |plane: &ClipPlane| {
-            let ((a, b), n) = (self.beyond(plane), plane.index_normal.abs());
-            let [origin, _] = self.line();
-            let size = n.dot(origin.abs()) + plane.index_offset.abs() + a.abs();
-            let error = n.x * errors[0] + n.y * errors[1] + n.z * errors[2] + 8.0 * ROUNDING * size;
-            (b < 0.0).then(|| (-a / b, error / -b, plane.normal.dot(v.to_glam()).abs() < 64.0 * ROUNDING))
+            let (t, error) = self.crossing(plane);
+            let is_edge_on = plane.normal.dot(v.to_glam()).abs() < 64.0 * ROUNDING;
+            (self.beyond(plane).1 < 0.0).then_some((t, error, is_edge_on))
         };
         let entries: Vec<_> = clip.0.iter().filter_map(entry).collect();
         let Some(last) = entries.iter().copied().reduce(|last, next| if next.0 > last.0 { next } else { last }) else {

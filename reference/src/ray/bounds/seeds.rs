@@ -54,7 +54,7 @@ pub(super) fn seeds_of_ray<'p, 'v>(
     for k in first..=last {
         let (inside, cut) = (ray.is_inside(k, object.ends), ray.is_cut(k, planes));
         let hangs_on_cut = cut == Answer::Open || after_cut;
-        after_cut = cut == Answer::Open;
+        after_cut = cut == Answer::Open || (cut == Answer::Yes && inside == Answer::Open);
         if inside == Answer::No || cut == Answer::Yes {
             continue;
         }
@@ -96,7 +96,7 @@ impl SeedRay<'_, '_> {
         let (evaluator, seeds, counts) = (&mut self.evaluator, self.seeds, &mut Counts::default());
         let none = vec![[0.0; 3]; seeds.list.len()];
         evaluator.previous = Previous::None;
-        let position = evaluator.ray.position(k);
+        let position = evaluator.position(k);
         let at = evaluator.sampler.place(position);
         if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
             return none;

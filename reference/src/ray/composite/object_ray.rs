@@ -237,8 +237,9 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
             return Shares::whole();
         }
         let taken = self.selections.iter().zip(&combination.selections).filter(takes);
+        let cut_depth = self.behind.cut_depth(k);
         let mut value = || Some(here.sample(&self.behind, counts)?.s);
-        let memberships = taken.map(|(ray, selection)| ray.here.membership(selection, k, &mut value));
+        let memberships = taken.map(|(ray, selection)| ray.here.membership(selection, (k, cut_depth), &mut value));
         Shares::beside(combination.fuzzy, memberships)
     }
 
@@ -385,15 +386,15 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         part.depth(&self.combination.selections[selection], &self.selections[selection], cut, counts)
     }
 
-    /// The attributes of a part for the layers. For the first visible sample of a ray they include those of the layers
-    /// `first.*`.
+    /// The depth and the attributes of a part for the layers. For the first visible sample of a ray they include those
+    /// of the layers `first.*`.
     pub(super) fn for_layers(
         &mut self,
         largest: &Largest<R>,
         is_first: bool,
         main_exponent: i32,
         counts: &mut Counts,
-    ) -> Option<SampleAttributes<R>> {
+    ) -> Option<(f64, SampleAttributes<R>)> {
         let part = &mut self.parts[largest.part?];
         let mut attributes = largest.attributes;
         if let (Some(first), true) = (part.part.object.first, is_first) {
@@ -407,7 +408,8 @@ impl<'p, 'v, R: Real> ObjectRay<'p, 'v, R> {
         attributes.gradient =
             if by == 0 { gradient } else { Vec3::new(scaled(gradient.x), scaled(gradient.y), scaled(gradient.z)) };
         let cut = part.evaluator.cut_at(largest.sample.k);
-        Some(cut.map_or(attributes, |cut| cut.attributes(attributes)))
+        let attributes = cut.map_or(attributes, |cut| cut.attributes(attributes));
+        Some((part.evaluator.depth(largest.sample.k).to_f64(), attributes))
     }
 }
 

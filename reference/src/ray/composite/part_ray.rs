@@ -93,12 +93,16 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         background: &FieldEvaluator<'_, '_, R>,
         counts: &mut Counts,
     ) -> Option<(Sample<R>, R)> {
+        // What is taken from the background is taken where the background is.
+        let is_taken = set.selection.takes && !self.part.is_moved;
+        let cut_depth = if is_taken { background.cut_depth(k) } else { self.evaluator.cut_depth(k) };
         let mut look_up = || self.look_up(k, &is_asked, here, background, counts);
         let mut sample = None;
         if matches!(set.selection.membership, PreparedMembership::Value(_)) {
             sample = Some(look_up()?);
         }
-        let weight = set.placed.membership(set.selection, k, || sample.map(|sample: Sample<R>| sample.s)) * set.share;
+        let weight = set.placed.membership(set.selection, (k, cut_depth), || sample.map(|sample: Sample<R>| sample.s));
+        let weight = weight * set.share;
         if weight <= R::ZERO {
             return None;
         }
@@ -109,7 +113,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         Some((sample, weight))
     }
 
-    /// The part's sample k. It is the background's if both are one volume at one place.
+    /// The part's sample k. It is the background's if both are one volume at one place under the same planes.
     fn look_up(
         &self,
         k: i64,
@@ -118,7 +122,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
         background: &FieldEvaluator<'_, '_, R>,
         counts: &mut Counts,
     ) -> Option<Sample<R>> {
-        if !is_asked(self.evaluator.sampler.place(self.evaluator.ray.position(k)).cell) {
+        if !is_asked(self.evaluator.sampler.place(self.evaluator.position(k)).cell) {
             return None;
         }
         if self.part.is_of_background { here.sample(background, counts) } else { look_up(&self.evaluator, k, counts) }
@@ -133,7 +137,7 @@ impl<'p, 'v, R: Real> PartRay<'p, 'v, R> {
     ) -> bool {
         let mut found = || {
             let sample = look_up(&self.evaluator, k, counts)?;
-            let weight = placed.membership(selection, k, || Some(sample.s));
+            let weight = placed.membership(selection, (k, self.evaluator.cut_depth(k)), || Some(sample.s));
             let ((_, alpha), _) = self.evaluator.shaded_by_any(sample, counts).filter(|_| weight > R::ZERO)?;
             (alpha > R::ZERO).then_some(())
         };
@@ -214,7 +218,7 @@ impl<R: Real> Here<R> {
 
 /// The sample of an evaluator's field on plane k. Returns none if it is masked.
 fn look_up<R: Real>(evaluator: &FieldEvaluator<'_, '_, R>, k: i64, counts: &mut Counts) -> Option<Sample<R>> {
-    let at = evaluator.sampler.place(evaluator.ray.position(k));
+    let at = evaluator.sampler.place(evaluator.position(k));
     if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
         counts.masked += 1;
         return None;

@@ -242,7 +242,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
                     let together = objects.together(k, self.prepared, counts);
                     self.samples += std::mem::replace(&mut counts.samples, before) - before;
                     let Some(together) = together else { continue };
-                    self.composite_together(objects, k, &together, tint, counts);
+                    self.composite_together(objects, &together, tint, counts);
                     if !self.is_open() {
                         return false;
                     }
@@ -270,7 +270,6 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
     fn composite_together(
         &mut self,
         objects: &mut ObjectRay<'p, 'v, R>,
-        k: i64,
         together: &Together<R>,
         tint: Option<&Tint>,
         counts: &mut Counts,
@@ -284,9 +283,8 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let exponent = self.prepared.object.field.scale_exponent();
         match objects.for_layers(largest, self.sums.is_none(), exponent, counts) {
             None => self.collect(largest.sample, corrected, largest.attributes, objects.fractions(), counts),
-            Some(attributes) => {
-                let (depth, value) = (self.evaluator.ray.depth(k).to_f64(), largest.sample.s.to_f64());
-                self.add_to_layers(corrected, depth, value, &attributes, objects.fractions());
+            Some((depth, attributes)) => {
+                self.add_to_layers(corrected, depth, largest.sample.s.to_f64(), &attributes, objects.fractions());
             }
         }
     }
@@ -313,9 +311,9 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         'samples: while k <= last {
             let n = (last - k + 1).min(self.evaluator.sampler.at_once() as i64) as usize;
             let values = &mut values[..n.min(MOST_AT_ONCE)];
-            self.evaluator.sampler.values(|i| self.evaluator.ray.position(k + i as i64), values);
+            self.evaluator.sampler.values(|i| self.evaluator.position(k + i as i64), values);
             for (k, &s) in (k..).zip(&*values) {
-                let at = || self.evaluator.sampler.place(self.evaluator.ray.position(k));
+                let at = || self.evaluator.sampler.place(self.evaluator.position(k));
                 if object.volume.mask().is_some() && self.is_masked(at(), counts) {
                     continue;
                 }
@@ -342,7 +340,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         let mut front = self.front;
         let mut open = true;
         for k in first..=last {
-            let at = self.evaluator.sampler.place(self.evaluator.ray.position(k));
+            let at = self.evaluator.sampler.place(self.evaluator.position(k));
             let can_show = |cells: &CellMask| cells.can_show(&object.field, at.cell);
             if !prepared.cells.as_ref().is_none_or(can_show) || self.is_masked(at, counts) {
                 continue;
@@ -442,7 +440,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> RayState<'p, 'v, R, S> {
         if let Some(cut) = self.evaluator.cut_at(sample.k) {
             attributes = cut.attributes(attributes);
         }
-        let depth = self.evaluator.ray.depth(sample.k).to_f64();
+        let depth = self.evaluator.depth(sample.k).to_f64();
         self.add_to_layers(alpha, depth, sample.s.to_f64(), &attributes, fractions);
     }
 

@@ -272,7 +272,7 @@ impl<R: Real> SeedRay<'_, '_, R> {
         counts: &mut Counts,
     ) {
         let evaluator = &mut self.evaluator;
-        let at = evaluator.sampler.place(evaluator.ray.position(k));
+        let at = evaluator.sampler.place(evaluator.position(k));
         // A masked sample is transparent and seeds nothing.
         if evaluator.object.volume.mask().is_some_and(|mask| mask.touches_cell(at.cell)) {
             return;

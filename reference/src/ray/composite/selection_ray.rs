@@ -36,11 +36,12 @@ impl<R: Real> SelectionRay<R> {
 }
 
 impl<R: Real> PlacedSelection<R> {
-    /// f_S at sample k, which lies in the box. `value` returns the value of the data.
+    /// f_S at sample k, which lies in the box; if the sample is on a cut, at the cut's depth. `value` returns the value of
+    /// the data.
     pub(super) fn membership(
         &self,
         selection: &PreparedSelection<'_, R>,
-        k: i64,
+        (k, cut_depth): (i64, Option<R>),
         value: impl FnOnce() -> Option<R>,
     ) -> R {
         match (&selection.membership, &self.ray) {
@@ -49,7 +50,9 @@ impl<R: Real> PlacedSelection<R> {
                 let place = value().and_then(|s| function.locate(s));
                 place.map_or(R::ZERO, |place| place.alpha_u)
             }
-            (PreparedMembership::Voxels(memberships), Some(ray)) => memberships.at(ray.position(k)),
+            (PreparedMembership::Voxels(memberships), Some(ray)) => {
+                memberships.at(cut_depth.map_or_else(|| ray.position(k), |depth| ray.position_at(depth)))
+            }
             (PreparedMembership::Voxels(_), None) => R::ZERO,
         }
     }

@@ -32,11 +32,13 @@ pub(crate) struct CutFace<R> {
     cap: Option<([R; 3], R)>,
 }
 
-/// The first sample of a ray behind a cut.
+/// The first sample of a ray behind a cut. It is evaluated on the plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CutSample<R> {
     /// k.
     pub(crate) k: i64,
+    /// The eye depth at which the ray meets the plane.
+    pub(crate) depth: R,
     pub(crate) face: CutFace<R>,
 }
 

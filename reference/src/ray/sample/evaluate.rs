@@ -38,7 +38,7 @@ pub(crate) struct Evaluator<'p, 'v, R: Real, S> {
     pub(crate) dirs: ViewDirs<R>,
     pub(crate) previous: Previous<R>,
     /// The first sample behind a cut ([RAY-8]), if there is one.
-    cut: Option<CutSample<R>>,
+    pub(crate) cut: Option<CutSample<R>>,
 }
 
 impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
@@ -53,7 +53,10 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
     ) -> Self {
         let clip = &object.clip;
         let cut = ray.cut_sample(&clip.planes, object.ends);
-        let cut = cut.map(|(k, plane)| CutSample { k, face: clip.face(plane, &dirs, eye_axes) });
+        let cut = cut.map(|cut| {
+            let face = clip.face(cut.plane, &dirs, eye_axes);
+            CutSample { k: cut.k, depth: R::from_f64(cut.depth), face }
+        });
         Self { object, sampler, ray, dirs, previous: Previous::None, cut }
     }
 
@@ -61,6 +64,28 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
     #[inline(always)]
     pub(crate) fn cut_at(&self, k: i64) -> Option<CutFace<R>> {
         self.cut.filter(|cut| cut.k == k).map(|cut| cut.face)
+    }
+
+    /// The eye depth of the cut on which sample k lies, if there is one.
+    #[inline(always)]
+    pub(crate) fn cut_depth(&self, k: i64) -> Option<R> {
+        self.cut.filter(|cut| cut.k == k).map(|cut| cut.depth)
+    }
+
+    /// The eye depth at which sample k is evaluated: that of its plane or, on a cut, that of the cut.
+    #[inline(always)]
+    pub(crate) fn depth(&self, k: i64) -> R {
+        self.cut_depth(k).unwrap_or_else(|| self.ray.depth(k))
+    }
+
+    /// The index position at which sample k is evaluated.
+    #[inline(always)]
+    pub(crate) fn position(&self, k: i64) -> Vec3<R> {
+        match self.cut_depth(k) {
+            // It lies between two samples in the box, and rounding is monotonic.
+            Some(depth) => self.ray.position_at(depth),
+            None => self.ray.position(k),
+        }
     }
 
     /// Adds the quantities of a query to the known attributes of a sample.
@@ -84,7 +109,7 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
             let g = second.map_or_else(|| self.sampler.gradient_at(at), |(g, _)| g);
             counts.gradients += 1;
             attributes.gradient = g;
-            attributes.depth = self.ray.depth(k);
+            attributes.depth = self.depth(k);
             if let Some((lo, width)) = self.object.gradient_range {
                 attributes.magnitude = if width > R::ZERO { ((g.length() - lo) / width).clamp_01() } else { R::ZERO };
             }
@@ -104,7 +129,12 @@ impl<'p, 'v, R: Real, S: Sampler<R>> Evaluator<'p, 'v, R, S> {
             }
         }
         if query.kappa == KappaSource::AlongRay {
-            self.previous = attributes.normal.map_or(Previous::WithoutNormal(k), |n| Previous::Normal(k, n));
+            // The next sample looks back to the lattice, which a cut is beside.
+            self.previous = match attributes.normal {
+                _ if self.cut_at(k).is_some() => Previous::None,
+                Some(n) => Previous::Normal(k, n),
+                None => Previous::WithoutNormal(k),
+            };
         }
         attributes
     }

@@ -22,7 +22,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
         mut add: impl FnMut(usize, f64),
     ) {
         // h_v, h_l and h_p, and for a function over two quantities the quantities of α_u.
-        let position = self.ray.position(sample.k);
+        let position = self.position(sample.k);
         let mut attributes = SampleAttributes::neutral();
         let reads = seeds.reads_opacity;
         let (alpha_u, asked) = if reads { self.alpha_u(sample, &mut attributes, counts) } else { (R::ZERO, false) };

@@ -71,7 +71,7 @@ impl<R: Real, S: Sampler<R>> Evaluator<'_, '_, R, S> {
     pub(super) fn quantities(&self, sample: Sample<R>, attributes: &SampleAttributes<R>) -> SampleQuantities<R> {
         let of_normal = |x: R| if attributes.normal.is_some() { x } else { R::ZERO };
         SampleQuantities {
-            position: self.ray.position(sample.k),
+            position: self.position(sample.k),
             place: sample.at,
             value: sample.s,
             gradient: of_normal(attributes.gradient.length()),
