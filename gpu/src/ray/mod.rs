@@ -160,7 +160,7 @@ pub(crate) fn add_clip(shader: &mut Shader, clipping: &Clipping, styles: usize) 
 }
 
 /// Samples that no plane cuts.
-pub(crate) const UNCLIPPED: Module = module!("unclipped_samples");
+pub(crate) const UNCLIPPED: Module = module!("clipped_samples_none");
 
 /// Adds the shading of samples on cuts, after measures and shading are added.
 pub(crate) fn add_cuts(shader: &mut Shader) {
