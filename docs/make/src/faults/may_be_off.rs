@@ -50,7 +50,7 @@ const MAY_BE_OFF: &[(&str, &str, &str)] = &[
     ("volume_stippling/hidden", "voxel_along(out) * params", DOTS),
     ("volume_stippling/hidden_clipped", "line.along * kept", DOTS),
     ("volumetric_halos/direction", "n.x * n.x + n.y", BESIDE),
-    ("volumetric_halos/direction", "n.y * n.y)) <=", BESIDE),
+    ("volumetric_halos/direction", "n.y * n.y) <=", BESIDE),
     ("volumetric_halos/seed_bricks", "ray.along[axis] * ray", SKIPPED),
 ];
 

@@ -67,8 +67,8 @@ pub(super) const FAMILIES: [Family; 18] = [
             (4, "Randomness is Philox4x32-10 counted by place and draw: the same scene has the same numbers everywhere."),
             (5, "What the camera looks at by default, from how far and with which height, follows from the box of the volume."),
             (6, "One ray goes through the centre of each pixel, or of each of n×n equal parts of it, whose results are averaged."),
-            (7, "`samples = \"auto\"` casts one ray a pixel, then 3×3 where the displayed picture or α differs from a neighbour by more than `contrast`; with halos, style mip-maps and strokes inside the volume it casts 2×2 everywhere."),
-            (8, "What a clip plane cuts away is transparent and seeds nothing; the first sample behind it lies on a cut with the plane's normal and no contour, and planes change no bit of what they leave."),
+            (7, "`samples = \"auto\"` casts one ray a pixel, five where the displayed picture or α differs from a neighbour by more than `contrast`, nine where the five differ; with halos, style mip-maps or inner strokes 2×2 everywhere."),
+            (8, "What a clip plane cuts away is transparent and seeds nothing; the first sample behind it lies on a cut: it is evaluated on the plane, with its normal and no contour; planes change no bit of other samples."),
         ],
     },
     Family {
