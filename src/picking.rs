@@ -58,7 +58,7 @@ pub fn pixel_inside([x, y]: [i64; 2], size: [usize; 2], place: &str) -> Result<[
 mod tests {
     use super::*;
 
-    /// Of 0.00987 an eighth is 0.00123375, and a quarter 0.0024675.
+    /// An eighth of 0.00987 is 0.00123375, and a quarter is 0.0024675.
     #[test]
     fn foci_have_two_digits() {
         let side = 2.0 * 0.00987 / 3f64.sqrt();

@@ -70,7 +70,7 @@ pub struct VolumeData {
     pub histogram: Histogram,
 }
 
-/// What a job says of its scene.
+/// A scene as a job completes it, and what it tells of it.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     /// The scene, with what was found in the data.
