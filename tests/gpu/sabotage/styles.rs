@@ -139,7 +139,7 @@ pub(crate) fn faults() -> Vec<Fault> {
             "colour",
         ),
         fault(in_styles("mipmaps"), "(lambda - start) /", "0.5 * (lambda - start) /", mip(), "colour"),
-        fault(in_styles("mipmaps"), "p = p / depth_of(ray, sample.k);", "p = p / depth_of(ray, 0);", mip(), "colour"),
+        fault(in_styles("mipmaps"), "p = p / (depth_of(ray, sample.k)", "p = p / (depth_of(ray, 0)", mip(), "colour"),
         fault(
             in_styles("mipmaps"),
             "params.gradient_bias * (1.0 - a.magnitude)",
