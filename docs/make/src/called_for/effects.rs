@@ -29,6 +29,13 @@ pub(super) struct Effect {
     pub(super) others: &'static [&'static str],
 }
 
+impl Effect {
+    /// Returns the beginning of its row on the page.
+    pub(super) fn first_cell(&self) -> String {
+        format!("| {}<br>{} |", self.name, self.asked_by)
+    }
+}
+
 /// What every picture with halos has: states of its rays and of those that ask for seeds, images, and the range of |g|.
 const OF_HALOS: &[&str] = &[
     "halo_samples",
@@ -140,7 +147,7 @@ pub(super) const EFFECTS: &[Effect] = effects! {
         with [("sampling.stop_below", "0.5")], fewer ["samples"];
     "four rays a pixel" by "`picture.samples = 2`" on REGULAR:
         with [("picture.samples", "2")], more ["rays", "rays_skipped", "samples"];
-    "nine rays in a pixel at an edge" by "`picture.samples = \"auto\"`, the default" on REGULAR:
+    "five or nine rays in a pixel at an edge" by "`picture.samples = \"auto\"`, the default" on REGULAR:
         with [("picture.samples", "auto")], only ["refined_pixels", "bytes.refinement"], more ["rays", "samples"];
     "an opaque iso-surface" by "`[surface]`" on REGULAR:
         with [("surface.iso", "120")], only ["bytes.surface"], fewer ["samples"];

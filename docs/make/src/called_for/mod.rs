@@ -16,14 +16,23 @@ const ROUNDS: usize = 7;
 /// The counts that a row shows whether or not they differ.
 const SHOWN: [&str; 4] = ["samples", "gradients", "hessians", "style_lookups"];
 
-/// Counts and times every effect and writes the page.
+/// Counts and times all effects, or those whose names contain a word behind `called-for`, and writes the page. Other
+/// effects keep their rows.
 ///
 /// # Errors
 /// What a scene, the renderer or the system says.
 pub(crate) fn write() -> Result<(), String> {
+    let only: Vec<String> = std::env::args().skip(2).collect();
+    let place = files::in_docs(NAME);
+    let before = std::fs::read_to_string(&place).map_err(|error| format!("{}: {error}", place.display()))?;
     let folder = Folder::new()?;
     let mut rows = String::new();
     for effect in EFFECTS {
+        let kept = before.lines().find(|line| line.starts_with(&effect.first_cell()));
+        if let Some(kept) = kept.filter(|_| !only.is_empty() && !only.iter().any(|word| effect.name.contains(word))) {
+            rows += &format!("{kept}\n");
+            continue;
+        }
         let [without, with] = in_turns(&folder, effect)?;
         if let Some(fault) = fault(effect, &without.0, &with.0) {
             return Err(fault);
@@ -31,8 +40,11 @@ pub(crate) fn write() -> Result<(), String> {
         row(&mut rows, effect, &without, &with);
     }
     let page = PAGE.replace("{rows}", rows.trim_end()).replace("{rounds}", &ROUNDS.to_string());
-    files::write("only-what-is-called-for.md", page.as_bytes())
+    files::write(NAME, page.as_bytes())
 }
+
+/// The page.
+const NAME: &str = "only-what-is-called-for.md";
 
 /// The page around its table.
 const PAGE: &str = include_str!("page.template");
@@ -94,9 +106,9 @@ fn row(rows: &mut String, effect: &Effect, (m, s): &(Named, f64), (n, t): &(Name
     others.dedup();
     let others: Vec<String> = others.iter().map(|name| format!("{name} {}", cell(name))).collect();
     let shown = SHOWN.map(cell).join(" | ");
-    let (name, asked_by, others) = (effect.name, effect.asked_by, others.join("<br>"));
+    let (first, others) = (effect.first_cell(), others.join("<br>"));
     // Writing to a text does not fail.
-    let _ = writeln!(rows, "| {name}<br>{asked_by} | {shown} | {others} | {:.1} → {:.1} |", s * 1e3, t * 1e3);
+    let _ = writeln!(rows, "{first} {shown} | {others} | {:.1} → {:.1} |", s * 1e3, t * 1e3);
 }
 
 /// A count with its thousands apart.
@@ -130,9 +142,9 @@ mod tests {
     /// The page has a row for every effect: it was written since the last one came.
     #[test]
     fn the_page_has_every_effect() {
-        let page = std::fs::read_to_string(files::in_docs("only-what-is-called-for.md")).unwrap();
+        let page = std::fs::read_to_string(files::in_docs(NAME)).unwrap();
         for effect in EFFECTS {
-            assert!(page.contains(&format!("| {}<br>{} |", effect.name, effect.asked_by)), "{}", effect.name);
+            assert!(page.contains(&effect.first_cell()), "{}", effect.name);
         }
     }
 
