@@ -120,9 +120,6 @@ pub enum ErrorSubject {
 }
 
 impl ErrorSubject {
-    /// All subjects.
-    pub const ALL: [Self; 3] = [Self::Picture, Self::Dots, Self::Strokes];
-
     /// Returns the subject of a knob: the output of its table, or else the first output that reads the field.
     fn of(knob: &Knob, plan: &Plan) -> Self {
         match knob.key.split(['.', '[']).next() {

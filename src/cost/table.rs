@@ -37,18 +37,16 @@ pub fn markdown(sweep: &Sweep) -> String {
     let few = if is_long { format!(", of {FEW} where a page takes more than {LONG} s") } else { String::new() };
     let mut text = format!(
         "{width} × {height} pixels, {threads} threads, medians of {runs} runs{few}. **Bold**: what the scene says; ●: no \
-         other setting with the same kind of truth has less error in less time.{voxels}\n\n\
+         other setting with the same truth has less error in less time.{voxels}\n\n\
          | knob | setting | RMS | max | FLIP |{angle} ms | spread | samples | MB | truth |\n\
          |---|---|--:|--:|--:|{angle_rule}--:|--:|--:|--:|---|\n"
     );
-    let kinds = ErrorSubject::ALL.iter().flat_map(|subject| [(*subject, true), (*subject, false)]);
-    let best: Vec<&CostRow> = kinds.flat_map(|(subject, analytic)| front(&sweep.rows, subject, analytic)).collect();
     let mut last = "";
     for row in &sweep.rows {
         let knob = if row.knob == last { String::new() } else { format!("`{}`", row.knob) };
         last = &row.knob;
         let setting = if row.own { format!("**{}**", row.setting) } else { row.setting.clone() };
-        let dot = if best.iter().any(|other| std::ptr::eq(*other, row)) { " ●" } else { "" };
+        let dot = if front(&sweep.rows, row).iter().any(|best| std::ptr::eq(*best, row)) { " ●" } else { "" };
         let [rms, max, flip] = [row.rms, row.max, row.flip].map(error);
         let [ms, spread] = [row.seconds, row.spread].map(|seconds| format!("{:.1}", seconds * 1e3));
         let (samples, megabytes) = (count(row.samples), row.bytes as f64 / 1e6);
@@ -127,7 +125,7 @@ mod tests {
             lines[2],
             "| `sampling.step` | 2 voxels ● | 1.2e-2 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | analytic |"
         );
-        assert_eq!(lines[3], "|  | **1 voxel** | 0 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | finest: a, b |");
+        assert_eq!(lines[3], "|  | **1 voxel** ● | 0 | 5.0e-1 | 1.0e-3 | 12.5 | 0.5 | 123 k | 2.6 | finest: a, b |");
     }
 
     /// Strokes have an angle, and what takes long fewer runs.

@@ -1,12 +1,16 @@
 //! Plots of sweeps ([COST-1]): a panel for each knob, error against time on two logarithmic axes that all panels share.
-//! Each setting is labelled. The other knobs and the Pareto front are drawn in pale colours behind.
+//! Each setting is labelled. Settings without error stand on the floor under an arrow. Settings of other knobs with the
+//! same truth and the Pareto front are drawn in pale colours behind.
 
-use super::{CostRow, ErrorSubject, Sweep, Truth, front};
+mod labels;
+
+use super::front::{front, have_one_truth};
+use super::{CostRow, ErrorSubject, Sweep, Truth};
 use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::scatter::ScatterPlot;
-use kuva::plot::{LabelStyle, LinePlot};
-use kuva::render::annotations::ReferenceLine;
+use kuva::plot::LinePlot;
+use kuva::plot::scatter::{MarkerShape, ScatterPlot};
+use kuva::render::annotations::{ReferenceLine, TextAnnotation};
 use kuva::render::figure::Figure;
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
@@ -18,14 +22,23 @@ const OWN: &str = "#0072b2";
 /// Colour of the Pareto front.
 const FRONT: &str = "#d4d4d4";
 /// Colour of the settings of other knobs.
-const OTHERS: &str = "#c0c0c0";
+const OTHERS: &str = "#a8a8a8";
 
-/// Smallest error and time on a logarithmic axis.
+/// Smallest error and time on a logarithmic axis. A smaller error is none.
 const LEAST: f64 = 1e-9;
 
-/// Largest number of panels in a row, and width and height of a panel in the plot's units.
+/// Largest number of panels in a row, width and height of a panel, and its margins: left, top, right and bottom. All
+/// lengths are in the plot's units.
 const COLUMNS: usize = 3;
 const PANEL: [f64; 2] = [400.0, 330.0];
+const MARGINS: [f64; 4] = [52.0, 52.0, 12.0, 48.0];
+
+/// Length of the arrow to a setting without error, and the distance of its head from the axis.
+const ARROW: f64 = 16.0;
+const HEAD: f64 = 5.0;
+
+/// Distance between a label and its point above which a line joins them.
+const NEAR: f64 = 16.0;
 
 /// The unit of settings that are lengths, behind their numbers.
 const VOXELS: &str = " voxels";
@@ -50,27 +63,20 @@ pub(super) fn png(sweep: &Sweep, name: &str) -> Result<Vec<u8>, String> {
 }
 
 fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
-    let shown: Vec<&CostRow> = sweep.rows.iter().filter(|row| row.rms >= LEAST && row.seconds >= LEAST).collect();
-    if shown.is_empty() {
-        return Err("there is nothing to plot: no setting has an error".into());
-    }
-    // Rows of a knob stand together.
-    let knobs: Vec<&[&CostRow]> = shown.chunk_by(|a, b| a.knob == b.knob).collect();
+    let shown: Vec<&CostRow> = sweep.rows.iter().filter(|row| row.seconds >= LEAST).collect();
+    let axes = Axes::of(&shown).ok_or("there is nothing to plot: no setting has an error")?;
+    // Rows of a knob stand together. A single one compares nothing.
+    let knobs: Vec<&[&CostRow]> = shown.chunk_by(|a, b| a.knob == b.knob).filter(|knob| knob.len() > 1).collect();
     let columns = knobs.len().min(COLUMNS);
-    let rows = knobs.len().div_ceil(columns);
-    let axes = [reach(&shown, |row| row.seconds), reach(&shown, |row| row.rms)];
-    let plots = knobs.iter().map(|knob| panel(sweep, &shown, knob)).collect();
-    // The axes are named once, under the first panel of the last row and in the title.
-    let named = (rows - 1) * columns;
-    let layouts = knobs.iter().enumerate().map(|(i, knob)| layout(sweep, knob, axes, i == named)).collect();
-    let analytic = shown.iter().any(|row| row.truth == Truth::Analytic);
-    let against =
-        if analytic { "against the formula; *: against the finest setting" } else { "*: against the finest setting" };
+    let plots = knobs.iter().map(|knob| panel(sweep, &axes, knob)).collect();
+    let layouts = knobs.iter().map(|knob| layout(sweep, &axes, knob)).collect();
     let of_picture = shown.iter().any(|row| row.subject == ErrorSubject::Picture);
     let [width, height] = sweep.size;
     let what = if of_picture { "a frame" } else { "a page, from the voxels on," };
-    let title = format!("{name}: RMS error ({against}) over the time of {what} of {width} × {height} pixels");
-    let figure = Figure::new(rows, columns)
+    let runs = sweep.runs;
+    let title =
+        format!("{name}: error against the time of {what} of {width} × {height} pixels, medians of {runs} runs");
+    let figure = Figure::new(knobs.len().div_ceil(columns.max(1)), columns)
         .with_structure((0..knobs.len()).map(|i| vec![i]).collect())
         .with_plots(plots)
         .with_layouts(layouts)
@@ -81,76 +87,162 @@ fn drawn(sweep: &Sweep, name: &str) -> Result<Scene, String> {
     Ok(figure.render())
 }
 
-/// Returns the axes and the title of a knob's panel.
-fn layout(sweep: &Sweep, knob: &[&CostRow], [times, errors]: [[f64; 2]; 2], is_named: bool) -> Layout {
+/// The axes of all panels: ends of time in seconds and of error, both logarithmic.
+struct Axes {
+    times: [f64; 2],
+    errors: [f64; 2],
+}
+
+impl Axes {
+    /// Returns axes with space around rows and, below the least error, for those without; none if no row has an error.
+    fn of(rows: &[&CostRow]) -> Option<Self> {
+        let ends = |of: &dyn Fn(&CostRow) -> f64| {
+            let values = rows.iter().map(|row| of(row)).filter(|x| *x >= LEAST);
+            values.fold([f64::INFINITY, 0.0], |[lo, hi], x| [lo.min(x), hi.max(x)])
+        };
+        let [times, errors] = [ends(&|row| row.seconds), ends(&|row| row.rms)];
+        let floor = if rows.iter().any(|row| row.rms < LEAST) { 12.0 } else { 2.5 };
+        (errors[1] > 0.0)
+            .then(|| Self { times: [times[0] / 1.5, times[1] * 1.5], errors: [errors[0] / floor, errors[1] * 2.5] })
+    }
+
+    /// The area of the data in a panel: left, top, right and bottom.
+    fn area() -> labels::Area {
+        [MARGINS[0], MARGINS[1], PANEL[0] - MARGINS[2], PANEL[1] - MARGINS[3]]
+    }
+
+    /// Returns the point of a row in a panel. A row without error stands on the floor.
+    fn point(&self, row: &CostRow) -> [f64; 2] {
+        let [left, top, right, bottom] = Self::area();
+        let share = |x: f64, [lo, hi]: [f64; 2]| (x / lo).ln() / (hi / lo).ln();
+        let down = if row.rms < LEAST { HEAD } else { share(row.rms, self.errors) * (bottom - top) };
+        [left + share(row.seconds, self.times) * (right - left), bottom - down]
+    }
+
+    /// Returns time and error at a point of a panel.
+    fn values(&self, [x, y]: [f64; 2]) -> (f64, f64) {
+        let [left, top, right, bottom] = Self::area();
+        let at = |share: f64, [lo, hi]: [f64; 2]| lo * (hi / lo).powf(share);
+        (at((x - left) / (right - left), self.times), at((bottom - y) / (bottom - top), self.errors))
+    }
+}
+
+/// Returns axes, title and labels of a knob's panel.
+fn layout(sweep: &Sweep, axes: &Axes, knob: &[&CostRow]) -> Layout {
     let first = knob[0];
-    let star = if first.truth == Truth::Analytic { "" } else { " *" };
     let unit = if knob.iter().any(|row| row.setting.ends_with(VOXELS)) { " in voxels" } else { "" };
+    let of = match first.subject {
+        ErrorSubject::Picture => "RMS error",
+        ErrorSubject::Dots => "RMS error of tone",
+        ErrorSubject::Strokes => "RMS distance in voxels",
+    };
+    let truth = match &first.truth {
+        Truth::Analytic => "the formula".into(),
+        Truth::Finest(setting) => format!("{:?}", setting.trim_end_matches(VOXELS)),
+    };
+    let (times, errors) = (axes.times, axes.errors);
     let mut layout = Layout::new((times[0], times[1]), (errors[0], errors[1]))
         .with_log_scale()
-        .with_x_axis_min(times[0] / 1.5)
-        .with_x_axis_max(times[1] * 1.5)
-        .with_y_axis_min(errors[0] / 2.5)
-        .with_y_axis_max(errors[1] * 2.5)
+        .with_x_axis_min(times[0])
+        .with_x_axis_max(times[1])
+        .with_y_axis_min(errors[0])
+        .with_y_axis_max(errors[1])
+        .with_force_margins(MARGINS[0], MARGINS[2])
+        .with_force_margins_y(MARGINS[1], MARGINS[3])
         .with_x_tick_format(TickFormat::Custom(Arc::new(time)))
         .with_y_tick_format(TickFormat::Custom(Arc::new(|error| format!("{error:.0e}"))))
-        .with_title(format!("{}{unit}{star}{}", first.knob, of(first.subject)))
+        .with_x_label("time")
+        .with_title(format!("{}{unit}", first.knob))
         .with_title_size(14)
+        // The name of the upright axis lies over it: kuva's turned text is hard to read in pixels.
+        .with_subtitle(format!("{of}, against {truth}"))
+        .with_subtitle_size(12)
         .with_label_size(12)
-        .with_body_size(11)
+        .with_body_size(labels::SIZE)
         .with_tick_size(10);
-    if is_named {
-        layout = layout.with_x_label(format!("time, median of {} runs", sweep.runs));
-    }
     if let Some(own) = sweep.rows.iter().find(|row| row.own) {
         layout = layout.with_reference_line(ReferenceLine::vertical(own.seconds).with_color("#888888"));
+    }
+    for (text, _, area) in named(axes, knob) {
+        // The text's baseline lies six units above the place of an annotation.
+        let (x, y) = axes.values([(area[0] + area[2]) / 2.0, area[3] + 3.0]);
+        layout = layout.with_annotation(TextAnnotation::new(text, x, y).with_font_size(labels::SIZE));
     }
     layout
 }
 
-/// Returns the plots of a knob's panel, from back to front.
-fn panel(sweep: &Sweep, shown: &[&CostRow], knob: &[&CostRow]) -> Vec<Plot> {
-    let places = |rows: &[&CostRow]| rows.iter().map(|row| (row.seconds, row.rms)).collect::<Vec<_>>();
-    let first = knob[0];
-    let mut plots = Vec::new();
-    // The front of the knob's kind of error.
-    let best: Vec<&CostRow> = front(&sweep.rows, first.subject, first.truth == Truth::Analytic)
-        .into_iter()
-        .filter(|row| row.rms >= LEAST && row.seconds >= LEAST)
+/// Returns the label of each setting of a knob, its point, and the label's area. The unit stands in the title, and
+/// brackets mark what the scene says.
+fn named(axes: &Axes, knob: &[&CostRow]) -> Vec<(String, [f64; 2], labels::Area)> {
+    let texts: Vec<(String, [f64; 2])> = knob
+        .iter()
+        .map(|row| {
+            let name = row.setting.trim_end_matches(VOXELS).trim_end_matches(" voxel");
+            (if row.own { format!("[{name}]") } else { name.into() }, axes.point(row))
+        })
         .collect();
-    plots.push(Plot::Line(LinePlot::new().with_data(places(&best)).with_color(FRONT).with_stroke_width(7.0)));
-    let others: Vec<&CostRow> = shown.iter().copied().filter(|row| row.knob != first.knob).collect();
-    plots.push(Plot::Scatter(ScatterPlot::new().with_data(places(&others)).with_color(OTHERS).with_size(2.5)));
-    // The knob's own settings, coarse to fine, with their spreads and names. The unit stands in the title, and brackets
-    // mark what the scene says.
-    plots.push(Plot::Line(LinePlot::new().with_data(places(knob)).with_color(OWN).with_stroke_width(1.2)));
-    let names = knob.iter().map(|row| {
-        let name = row.setting.trim_end_matches(VOXELS).trim_end_matches(" voxel");
-        if row.own { format!("[{name}]") } else { name.into() }
-    });
-    let settings = ScatterPlot::new()
-        .with_data(places(knob))
-        .with_x_err(knob.iter().map(|row| row.spread / 2.0))
-        .with_color(OWN)
-        .with_size(3.5)
-        .with_labels(names)
-        .with_label_style(LabelStyle::Repel);
-    plots.push(Plot::Scatter(settings));
+    // No label covers a point or the shaft of an arrow.
+    let covered: Vec<[f64; 2]> = knob
+        .iter()
+        .flat_map(|row| {
+            let [x, y] = axes.point(row);
+            [
+                Some([x, y]),
+                (row.rms < LEAST).then_some([x, y - ARROW / 2.0]),
+                (row.rms < LEAST).then_some([x, y - ARROW]),
+            ]
+        })
+        .flatten()
+        .collect();
+    let areas = labels::places(&texts, &covered, Axes::area());
+    texts.into_iter().zip(areas).map(|((text, point), area)| (text, point, area)).collect()
+}
+
+/// Returns the plots of a knob's panel, from back to front.
+fn panel(sweep: &Sweep, axes: &Axes, knob: &[&CostRow]) -> Vec<Plot> {
+    let places = |rows: &[&CostRow]| rows.iter().map(|row| axes.values(axes.point(row))).collect::<Vec<_>>();
+    let line = |places: Vec<(f64, f64)>, color: &str, width| {
+        Plot::Line(LinePlot::new().with_data(places).with_color(color).with_stroke_width(width))
+    };
+    let dots = |rows: &[&CostRow], color: &str, size| {
+        ScatterPlot::new().with_data(places(rows)).with_color(color).with_size(size)
+    };
+    // The front of the knob's truth, and the other knobs with this truth.
+    let best: Vec<&CostRow> = front(&sweep.rows, knob[0]).into_iter().filter(|row| row.seconds >= LEAST).collect();
+    let others: Vec<&CostRow> =
+        sweep.rows.iter().filter(|row| have_one_truth(row, knob[0]) && row.knob != knob[0].knob).collect();
+    let mut plots = vec![
+        line(places(&best), FRONT, 7.0),
+        Plot::Scatter(dots(&best, FRONT, 7.0)),
+        Plot::Scatter(dots(&others, OTHERS, 2.5)),
+    ];
+    // Numbers are joined in their order. Kinds have none.
+    let mut numbers: Vec<(f64, &CostRow)> =
+        knob.iter().filter(|row| row.rms >= LEAST).filter_map(|row| Some((number(&row.setting)?, *row))).collect();
+    numbers.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let numbers: Vec<&CostRow> = numbers.into_iter().map(|(_, row)| row).collect();
+    plots.push(line(places(&numbers), OWN, 1.2));
+    // Leader lines of labels that had to go aside.
+    for (_, [x, y], area) in named(axes, knob) {
+        let near = [x.clamp(area[0], area[2]), y.clamp(area[1], area[3])];
+        if (near[0] - x).hypot(near[1] - y) > NEAR {
+            plots.push(line(vec![axes.values([x, y]), axes.values(near)], OTHERS, 0.8));
+        }
+    }
+    // The settings: points with the spread of their time, and arrows to those without error.
+    let (exact, apart): (Vec<&CostRow>, Vec<&CostRow>) = knob.iter().copied().partition(|row| row.rms < LEAST);
+    for row in &exact {
+        let [x, y] = axes.point(row);
+        plots.push(line(vec![axes.values([x, y - ARROW]), axes.values([x, y])], OWN, 1.6));
+    }
+    plots.push(Plot::Scatter(dots(&exact, OWN, 4.0).with_marker(MarkerShape::TriangleDown)));
+    plots.push(Plot::Scatter(dots(&apart, OWN, 3.5).with_x_err(apart.iter().map(|row| row.spread / 2.0))));
     plots
 }
 
-/// Returns the subject of an error for a title, unless it is the picture.
-fn of(subject: ErrorSubject) -> &'static str {
-    match subject {
-        ErrorSubject::Picture => "",
-        ErrorSubject::Dots => ", dots",
-        ErrorSubject::Strokes => ", strokes (voxels)",
-    }
-}
-
-/// Returns the smallest and the largest value of rows.
-fn reach(rows: &[&CostRow], of: fn(&CostRow) -> f64) -> [f64; 2] {
-    rows.iter().map(|row| of(row)).fold([f64::INFINITY, 0.0], |[lo, hi], x| [lo.min(x), hi.max(x)])
+/// Returns the number of a setting, before its unit; none for a kind.
+fn number(setting: &str) -> Option<f64> {
+    setting.split(' ').next()?.parse().ok()
 }
 
 /// Returns seconds in s, ms or µs.
@@ -193,34 +285,57 @@ mod tests {
     }
 
     #[test]
-    fn every_setting_has_a_name_and_every_axis_one() {
+    fn every_setting_and_every_axis_has_a_name() {
         let rows = vec![
             row("sampling.step", "4 voxels", 0.01, 0.5),
             row("sampling.step", "1 voxel", 0.1, 0.05),
             row("sampling.kernel", "slow and bad", 0.2, 0.4),
             row("sampling.kernel", "its own truth", 0.3, 0.0),
             row("sampling.number", "f32", 0.2, 1e-6),
-            row("picture.samples", "2", 0.9, 0.01),
+            row("sampling.number", "f64", 0.1, 0.0),
+            row("picture.samples", "alone", 0.9, 0.01),
         ];
         let text = svg(&sweep(rows), "a <scene>").unwrap();
         for (part, times) in [
-            ("sampling.step in voxels *", 1),
-            ("sampling.kernel *", 1),
+            ("sampling.step in voxels", 1),
+            ("sampling.kernel", 1),
             (">[4]<", 1),
             (">1<", 1),
             (">slow and bad<", 1),
+            (">its own truth<", 1),
             (">f32<", 1),
-            ("its own truth", 0),
-            ("a &lt;scene&gt;: RMS error", 1),
-            ("time, median of 1 runs", 1),
+            (">f64<", 1),
+            ("a &lt;scene&gt;: error against the time of a frame", 1),
+            // Three panels have two axes each; a knob with one setting has none.
+            (">time<", 3),
+            (">RMS error, against &quot;f&quot;<", 3),
+            ("picture.samples", 0),
+            // One format of errors, with the same ticks in each panel.
+            (">1e-3<", 3),
+            (">0.1<", 0),
         ] {
             assert_eq!(text.matches(part).count(), times, "{part}\n{text}");
         }
-        // One format of errors, with the same ticks in each of four panels.
-        assert_eq!(text.matches(">1e-3<").count(), 4, "{text}");
-        assert!(!text.contains(">0.1<") && !text.contains(">0.01<"));
-        let bytes = png(&sweep(vec![row("sampling.step", "4 voxels", 0.01, 0.5)]), "a").unwrap();
-        assert!(bytes.starts_with(b"\x89PNG"));
+        let two = vec![row("sampling.step", "4 voxels", 0.01, 0.5), row("sampling.step", "1 voxel", 0.1, 0.05)];
+        assert!(png(&sweep(two), "a").unwrap().starts_with(b"\x89PNG"));
+    }
+
+    /// The floor is below every error, and places and values are inverse.
+    #[test]
+    fn a_setting_without_error_stands_on_the_floor() {
+        let rows = [row("k", "a", 0.01, 0.5), row("k", "b", 0.1, 1e-6), row("k", "c", 1.0, 0.0)];
+        let axes = Axes::of(&rows.iter().collect::<Vec<_>>()).unwrap();
+        let [a, b, c] = rows.each_ref().map(|row| axes.point(row));
+        assert!(a[1] < b[1] && b[1] + ARROW + HEAD < c[1] && c[1] == Axes::area()[3] - HEAD, "{a:?} {b:?} {c:?}");
+        let (seconds, error) = axes.values(b);
+        assert!((seconds / 0.1 - 1.0).abs() < 1e-12 && (error / 1e-6 - 1.0).abs() < 1e-12);
+        assert!(Axes::of(&[&rows[2]]).is_none());
+    }
+
+    #[test]
+    fn kinds_have_no_numbers() {
+        assert_eq!(["0.5 voxels", "1 voxel", "64", "1e-3"].map(number), [0.5, 1.0, 64.0, 1e-3].map(Some));
+        assert_eq!(["auto", "exact", "bspline5", "true", "f32"].map(number), [None; 5]);
     }
 
     #[test]

@@ -3,6 +3,7 @@
 
 mod choices;
 mod errors;
+mod stored;
 
 use crate::files;
 use drypoint::cost::{SweepFormat, SweepOptions, markdown, sweep};
@@ -53,11 +54,11 @@ const LARGEST: usize = 300_000;
 /// Scenes of the table of choices: pictures of volumes.
 const CHOSEN: [&str; 4] = ["torus", "engine", "head", "vessels"];
 
-/// The parts beside the scenes that can be named.
-const PARTS: [&str; 2] = ["choices", "errors"];
+/// The parts beside the scenes that can be named. `plots` measures nothing.
+const PARTS: [&str; 3] = ["choices", "errors", "plots"];
 
 /// Measures all, or the scenes and parts that are named behind `cost`, and writes the pages and their pictures. What is
-/// not measured stays as the pages have it.
+/// not measured stays as the pages have it, and its plots are drawn anew from the tables.
 ///
 /// # Errors
 /// An unknown name, a scan that is not there, errors of the renderer or the system, and a plot that is too large for a
@@ -80,14 +81,14 @@ pub(crate) fn write() -> Result<(), String> {
     let mut tables = TABLES.to_owned();
     for scene in &SCENES {
         let Measured { name, .. } = scene;
-        let table = if is_wanted(name) {
-            let found = sweep(&job(scene, &[])?, &SweepOptions { runs: RUNS, only: Vec::new() }, &[], &|_| ());
-            let found = found.map_err(|e| e.to_string())?;
-            picture(&format!("{name}.png"), &SweepFormat::Png.of_sweep(&found, name)?)?;
-            markdown(&found)
+        let found = if is_wanted(name) {
+            let options = SweepOptions { runs: RUNS, only: Vec::new() };
+            sweep(&job(scene, &[])?, &options, &[], &|_| ()).map_err(|e| e.to_string())?
         } else {
-            part(&before("cost-tables.md")?, &format!("<a id=\"{name}\"></a>\n\n"), "\n## ")?
+            stored::sweep(&part(&before("cost-tables.md")?, &format!("<a id=\"{name}\"></a>\n\n"), "\n## ")?)?
         };
+        picture(&format!("{name}.png"), &SweepFormat::Png.of_sweep(&found, name)?)?;
+        let table = markdown(&found);
         tables = tables.replace(&format!("{{{name}}}"), &table);
     }
     // The page itself.
