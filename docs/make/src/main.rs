@@ -10,6 +10,7 @@ mod faults;
 mod files;
 mod halos;
 mod integrator;
+mod labels;
 #[cfg(test)]
 mod pages;
 mod painting;

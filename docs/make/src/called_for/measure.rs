@@ -1,15 +1,12 @@
 //! Counts and seconds of one scene.
 
 use super::effects::Settings;
+use crate::labels::write_ball;
 use drypoint::drawing::Drawing;
 use drypoint::job::Job;
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
 use drypoint::scene::file::{Overrides, parse};
-use drypoint::scene::phantom;
-use drypoint::scene::tables::PhantomSource;
-use drypoint::scene::volume::VoxelType;
-use drypoint::scene::volume::write::write_nrrd;
 use std::collections::BTreeMap;
 use std::time::Instant;
 use tempfile::TempDir;
@@ -23,15 +20,7 @@ pub(super) struct Folder(TempDir);
 impl Folder {
     pub(super) fn new() -> Result<Self, String> {
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
-        let source = PhantomSource {
-            name: "sphere".into(),
-            size: [48; 3],
-            spacing: [2.0; 3],
-            voxel_type: VoxelType::U8,
-            params: Vec::new(),
-        };
-        let labels = phantom::generate(&source).map_err(|e| e.to_string())?.present();
-        write_nrrd(&labels, &folder.path().join("labels.nrrd")).map_err(|e| e.to_string())?;
+        write_ball(48, &folder.path().join("labels.nrrd"))?;
         Ok(Self(folder))
     }
 

@@ -1,6 +1,6 @@
 //! Small scenes among which every module of the shaders is: those of the validation, and further ones.
 
-use crate::validation::scenes::{SCENES, scene};
+use crate::validation::scenes::{OF_LABELS, SCENES, scene};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::path::Path;
@@ -257,7 +257,7 @@ const HALOS: &str = "[shading]\n[[halo]]\nname = \"rim\"\nkind = \"emissive\"\ns
 pub(super) fn all(folder: &Path, size: [usize; 2]) -> std::io::Result<Vec<SceneText>> {
     write_files(folder)?;
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/meshes");
-    let known = SCENES.iter().map(|&(name, more)| (name, &[][..], more));
+    let known = SCENES.iter().map(|&(name, more)| (name, if name == OF_LABELS { LABELS } else { &[] }, more));
     let of = |(name, keys, more): (_, &[(_, &str)], _)| {
         let keys = keys.iter().map(|&(key, value)| (key, value.replace("FOLDER", &folder.display().to_string())));
         let text = scene(name, more, size).replace("data/meshes", &meshes.display().to_string());

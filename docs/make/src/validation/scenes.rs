@@ -9,6 +9,10 @@ pub(crate) const SCENES: &[(&str, &str)] = &[
     ("normals turned to the eye", "[shading]\n[sampling]\nnormal = \"facing\"\n"),
     ("toon shading", "[shading]\nmodel = \"toon\"\n"),
     (
+        "lighting function, cartoon",
+        "[shading]\nmodel = \"lighting-function\"\npreset = \"cartoon-contours\"\nlight = [-0.5, 0.4, 0.7]\n",
+    ),
+    (
         "lighting function",
         "[shading]\nmodel = \"lighting-function\"\npreset = \"metal-contours\"\nlight = [-0.5, 0.4, 0.7]\n",
     ),
@@ -41,6 +45,7 @@ pub(crate) const SCENES: &[(&str, &str)] = &[
     ("lines inside the volume", "[hatching]\niso = 128\nhidden = \"merged\"\n"),
     ("over value and gradient magnitude", OVER_GRADIENT),
     ("over value and a distance", OVER_DISTANCE),
+    (OF_LABELS, OVER_LABEL),
     ("an opaque mesh", MESH),
     ("a dark halo", "[shading]\n[[halo]]\nevery = 4\n"),
     ("a glowing halo", "[shading]\n[[halo]]\nkind = \"emissive\"\nevery = 4\n"),
@@ -56,6 +61,9 @@ pub(crate) const SCENES: &[(&str, &str)] = &[
     ("a ghosted background, in a funnel", GHOSTED),
     ("a halo of a selection and its ghost", HALOS_OF_PARTS),
 ];
+
+/// The scene that reads a label volume, which its user adds.
+pub(crate) const OF_LABELS: &str = "over value and label";
 
 /// A plate with screws, in the middle of the torus.
 const MESH: &str =
@@ -89,6 +97,11 @@ const OVER_GRADIENT: &str = "over = [\"value\", \"gradient-magnitude\"]\nunit = 
 const OVER_DISTANCE: &str = "over = [\"value\", { distance = [23, 9, 24] }]\nrows = [
   { at = 5, nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.4 }] },
   { at = 30, nodes = [{ at = 90, color = \"#3366cc\", opacity = 0 }, { at = 120, color = \"#88ccff\", opacity = 0.5 }] },
+]\n";
+
+const OVER_LABEL: &str = "over = [\"value\", \"label\"]\nrows = [
+  { at = 0, nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.4 }] },
+  { at = 1, nodes = [{ at = 90, color = \"#3366cc\", opacity = 0 }, { at = 120, color = \"#88ccff\", opacity = 0.5 }] },
 ]\n";
 
 /// The scene of an effect, in a picture so large.
