@@ -94,7 +94,7 @@ fn on_this_machine() {
     check(&hashes(|folder| folder.command([""; 0])), "this machine");
 }
 
-/// `DRYPOINT_ARM` names the command as built for aarch64-unknown-linux-gnu; `.ci/run` builds it.
+/// `DRYPOINT_ARM` names the command as built for aarch64-unknown-linux-gnu; `.ci/targets` builds it.
 #[test]
 fn on_arm_under_qemu() {
     let Some(arm) = std::env::var_os("DRYPOINT_ARM") else {

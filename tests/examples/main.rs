@@ -38,7 +38,7 @@ fn a_buffer_has_four_bytes_a_pixel() {
     assert_eq!(alpha, bytes.chunks(4).map(|pixel| pixel[3]).collect::<Vec<_>>());
 }
 
-/// `DRYPOINT_WASM` names the program as built for wasm32-wasip1; `.ci/run` builds it.
+/// `DRYPOINT_WASM` names the program as built for wasm32-wasip1; `.ci/targets` builds it.
 #[test]
 fn web_assembly_draws_the_same_bytes() {
     let Some(program) = std::env::var_os("DRYPOINT_WASM") else {

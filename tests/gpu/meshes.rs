@@ -43,11 +43,9 @@ fn meshes_are_drawn() {
     let halos = "[[halo]]\nevery = 3\n[[halo]]\nkind = \"emissive\"\n";
     let parallel = |text: String| text.replace("[camera]\n", "[camera]\nprojection = \"orthographic\"\n");
     for (name, text) in [
-        ("layers", scene(LAYERS, &format!("[shading]\n{both}"))),
         ("flat, rays at edges", scene("", &flat).replace("samples = 1\n", "")),
         ("along rays, encoded", scene("blend_space = \"srgb\"", &format!("[sampling]\nstep_along = \"ray\"\n{both}"))),
         ("cut beside a surface, parallel", parallel(scene(LAYERS, &format!("{CUT}{both}")))),
-        ("beside an object", scene(LAYERS, &format!("{OBJECT}{both}"))),
         ("a surface alone, beside an object", alone_beside_an_object(&meshes)),
         ("under halos", scene("", &format!("{halos}{both}{apart}"))),
     ] {
@@ -93,14 +91,12 @@ fn no_ray_passes_between_triangles() {
 fn meshes_follow_the_camera() {
     let Some(gpu) = gpu() else { return };
     let meshes = Meshes::new();
-    for more in ["", "[[halo]]\n"] {
-        let of = |direction: &str| {
-            let text = scene("", &format!("[shading]\n{}{more}", meshes.both()));
-            load(&text.replace("[0.4, 1, -0.3]", direction))
-        };
-        let [first, second] = ["[0.4, 1, -0.3]", "[-1, 0.2, -0.4]"].map(of);
-        follows_the_camera(&gpu, [&first, &second]);
-    }
+    let of = |direction: &str| {
+        let text = scene("", &format!("[shading]\n{}[[halo]]\n", meshes.both()));
+        load(&text.replace("[0.4, 1, -0.3]", direction))
+    };
+    let [first, second] = ["[0.4, 1, -0.3]", "[-1, 0.2, -0.4]"].map(of);
+    follows_the_camera(&gpu, [&first, &second]);
 }
 
 /// In f32 products of coordinates so far away are not numbers.

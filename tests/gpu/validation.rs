@@ -44,13 +44,10 @@ fn objects_and_meshes_keep_their_bounds() {
     let behind = "move = [2, 3, 1]\nghosting = 0.8\nghosting_of_ghost = 0.3";
     let by_value = object("c", "value = [[90, 0], [130, 0.8], [200, 0.3]]\nmove = [3, 0, 0]");
     for (name, text) in [
-        ("a selection", shells(&files.soft(""))),
-        ("moved", shells(&files.soft(MOVED))),
         ("by products", shells(&(PRODUCT.to_owned() + &files.soft(MOVED) + &by_value + &files.own("")))),
         ("of styles", styled(&files.soft(MOVED))),
         ("an intersection", shells(&(near + meet))),
         ("a cutaway by a box", shells(&files.soft(behind))),
-        ("meshes", scene("", &meshes.both())),
         ("meshes beside an iso-surface", scene("", &(meshes.both() + "[surface]\niso = 150\n"))),
     ] {
         let (bounded, _) = kept(&gpu, name, &text);
@@ -63,7 +60,6 @@ fn objects_and_meshes_keep_their_bounds() {
 fn halos_keep_their_bounds() {
     let Some(gpu) = gpu() else { return };
     for (name, picture, tables) in [
-        ("occlusive", "", "[[halo]]\n"),
         ("emissive", "", "[[halo]]\nkind = \"emissive\"\nevery = 4\n"),
         ("by curvature, encoded", "blend_space = \"srgb\"", "[[halo]]\nseed.by = \"curvature\"\n"),
         ("mean", "", "[[halo]]\nevery = 4\naccumulate = \"mean\"\n"),
@@ -84,8 +80,6 @@ fn every_effect_keeps_its_bounds() {
                   { at = 128, color = \"#ffcc88\", opacity = 0.3 }, { at = 140, color = \"#88ccff\", opacity = 0.9 }]\n";
     let styles = "nodes = [{ at = 100, style = \"wax\", opacity = 0 }, { at = 140, style = \"wax\", opacity = 0.5 }]\n";
     for (name, function, more) in [
-        ("colours", colors, ""),
-        ("Phong", colors, "[shading]\n"),
         ("orthographic", colors, "[shading]\n[camera]\nprojection = \"orthographic\"\n"),
         ("shells", colors, "[shading]\n[sampling]\nstep_along = \"ray\"\n"),
         ("tones and silhouettes", colors, "[shading]\nmodel = \"toon\"\n[shading.silhouette]\n"),

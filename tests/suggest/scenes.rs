@@ -14,6 +14,7 @@ use drypoint::scene::shot::Shot;
 use drypoint::scene::source::Disk;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{StyleSource, TransferKind, VolumeSource};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -60,9 +61,9 @@ fn drawn(path: &Path) -> ([usize; 2], f64) {
 }
 
 #[test]
-fn every_scene_gives_a_picture_in_every_theme() {
+fn every_scene_gives_a_picture_and_one_of_each_volume_in_every_theme() {
     let here = data().is_some();
-    let mut seen = 0;
+    let (mut seen, mut themed) = (0, BTreeSet::new());
     for path in all() {
         if !here && !is_of_a_phantom(&path) {
             println!("skipped: no data for {}", path.display());
@@ -87,20 +88,36 @@ fn every_scene_gives_a_picture_in_every_theme() {
         let picture = job.renderer().unwrap().frame(&|_| ()).0;
         let m = measure(&picture);
         assert!(m.finite && (0.05..=0.90).contains(&m.covered), "{}: {m:?}", path.display());
-        draws_in_every_theme(job, &picture, &path);
+        reads_back(&job, &path);
+        if has_a_theme(&job) && themed.insert(format!("{:?}", job.scene.volume.source)) {
+            draws_in_every_theme(job, &picture, &path);
+        }
         seen += 1;
     }
-    assert!(seen >= if here { 6 } else { 1 }, "{seen} scenes");
+    assert!(if here { seen > 100 && themed.len() > 3 } else { seen > 0 }, "{seen} scenes, {} volumes", themed.len());
 }
 
-/// A scene of styles in every theme but its own: exchanging the theme changes no other line ([STF-12]). A theme of a scene's own
-/// has names of its own.
-fn draws_in_every_theme(mut job: Job, own: &Picture, path: &Path) {
-    let scene = job.scene.clone();
-    let is_own = matches!(scene.styles.theme, StyleSource::Folder(_)) || !scene.styles.files.is_empty();
-    if is_own || scene.transfer.as_ref().is_none_or(|transfer| transfer.kind == TransferKind::Regular) {
+/// The JSON of a scene's shot is read as the same shot, and as the same text: zeros keep their signs.
+fn reads_back(job: &Job, path: &Path) {
+    if !job.draws_volume() {
         return;
     }
+    let shot = job.shot().unwrap();
+    let text = shot.to_json().unwrap();
+    let again = serde_json::from_str::<Shot>(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    assert!(again == shot && again.to_json().unwrap() == text, "{}", path.display());
+}
+
+/// Whether a scene has styles of an embedded theme. A theme of a scene's own has names of its own.
+fn has_a_theme(job: &Job) -> bool {
+    let scene = &job.scene;
+    let is_own = matches!(scene.styles.theme, StyleSource::Folder(_)) || !scene.styles.files.is_empty();
+    !is_own && scene.transfer.as_ref().is_some_and(|transfer| transfer.kind != TransferKind::Regular)
+}
+
+/// A scene of styles in every theme but its own: exchanging the theme changes no other line ([STF-12]).
+fn draws_in_every_theme(mut job: Job, own: &Picture, path: &Path) {
+    let scene = job.scene.clone();
     let m = measure(own);
     for theme in Theme::embedded_names().filter(|name| scene.styles.theme != StyleSource::Embedded((*name).into())) {
         let mut scene = scene.clone();
@@ -112,24 +129,6 @@ fn draws_in_every_theme(mut job: Job, own: &Picture, path: &Path) {
         // Opacities are the scene's; only α_d of what is clear differs a little from theme to theme.
         assert!((m.covered - n.covered).abs() < 0.05, "{theme}, {}: {m:?} and {n:?}", path.display());
     }
-}
-
-/// The JSON of every scene's shot is read as the same shot, and as the same text: zeros keep their signs.
-#[test]
-fn the_shot_of_every_scene_reads_back() {
-    let mut read = 0;
-    for path in all().into_iter().filter(|path| data().is_some() || is_of_a_phantom(path)) {
-        let job = Job::load(load(&path, &Overrides::default()).unwrap()).unwrap();
-        if !job.draws_volume() {
-            continue;
-        }
-        let shot = job.shot().unwrap();
-        let text = shot.to_json().unwrap();
-        let again = serde_json::from_str::<Shot>(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-        assert!(again == shot && again.to_json().unwrap() == text, "{}", path.display());
-        read += 1;
-    }
-    assert!(read > if data().is_some() { 60 } else { 0 }, "{read}");
 }
 
 #[test]
@@ -208,16 +207,19 @@ fn rays_at_edges_are_no_worse_than_four_rays_everywhere() {
     assert!(seen >= if data().is_some() { 11 } else { 8 }, "{seen}");
 }
 
-/// Every scene that draws the volume, with its lines and surfaces: plane by plane to the bits and the counts of ray by ray.
+/// A third of the scenes and those with lines inside: plane by plane to the bits and the counts of ray by ray.
 #[test]
-fn every_scene_is_the_same_plane_by_plane() {
+fn scenes_are_the_same_plane_by_plane() {
     let (mut compared, mut merged, mut surfaces) = (0, 0, 0);
-    for path in all() {
+    for (i, path) in all().into_iter().enumerate() {
+        let text = std::fs::read_to_string(&path).unwrap();
+        if i % 3 > 0 && !text.contains("\"merged\"") {
+            continue;
+        }
         if data().is_none() && !is_of_a_phantom(&path) {
             println!("skipped: no data for {}", path.display());
             continue;
         }
-        let text = std::fs::read_to_string(&path).unwrap();
         let mut small = vec![("picture.samples", "1")];
         if text.contains("\nwidth = ") {
             small.extend([("picture.width", "40 mm"), ("picture.height", "40 mm"), ("picture.dpi", "30")]);
@@ -261,5 +263,5 @@ fn every_scene_is_the_same_plane_by_plane() {
         surfaces += usize::from(job.scene.surface.is_some());
     }
     println!("{compared} scenes, {merged} with lines inside, {surfaces} with surfaces");
-    assert!(data().is_none() || (compared > 25 && merged > 0 && surfaces > 5));
+    assert!(data().is_none() || (compared > 25 && merged > 0 && surfaces > 3));
 }
