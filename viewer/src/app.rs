@@ -160,7 +160,8 @@ impl Viewer {
             self.changed = (revision, Instant::now());
         }
         let (is_released, is_down) = ctx.input(|input| (input.pointer.any_released(), input.pointer.any_down()));
-        if is_released || !is_down && self.changed.1.elapsed() > PAUSE {
+        let is_over = is_released || !is_down && self.changed.1.elapsed() > PAUSE;
+        if is_over && !self.session.is_stroke_open {
             self.session.document.seal();
         }
     }

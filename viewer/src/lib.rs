@@ -6,6 +6,7 @@
 //! | [`session`] | the document with its scene, its volume, its frame; what panels share |
 //! | [`frames`] | the thread that draws |
 //! | [`probe`] | the thread that tells what is seen at a pixel |
+//! | `brush.rs` | the thread that tells where a brush meets the volume |
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
 //! | [`focus`] | halos focused at a place |
 //! | [`compare`] | the card against the reference, in the background |
@@ -16,6 +17,7 @@
 
 pub mod app;
 mod background;
+mod brush;
 pub mod camera;
 pub mod canvas;
 pub mod commands;

@@ -1,5 +1,6 @@
 //! Clip planes: a slider through the volume for each, its direction, and a handle on the picture.
 
+use super::handle::Handle;
 use super::{Panel, PictureArea};
 use crate::camera::{numbers, place};
 use crate::document::Edit;
@@ -8,7 +9,7 @@ use crate::session::Session;
 use drypoint::scene::glam::DVec3;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Clip, ClipSpace};
-use eframe::egui::{self, Color32, Sense, Slider, Stroke, Ui, Vec2};
+use eframe::egui::{self, Color32, Slider, Ui};
 use toml_edit::InlineTable;
 
 /// The panel of clip planes.
@@ -70,26 +71,11 @@ impl Panel for ClipPanel {
             // The handle stands on the plane, nearest to the volume's middle, with an arrow to what is cut away.
             let foot = grid.centre() + normal * (point - grid.centre()).dot(normal);
             let tip = foot + normal * (0.15 * grid.radius());
-            let ends = [foot, tip].map(|p| pose.view.point_of(p).map(|p| picture.place(p)));
-            let [Some(from), Some(to)] = ends else { continue };
-            if !picture.rect.contains(from) {
-                continue;
-            }
-            let area = egui::Rect::from_center_size(from, Vec2::splat(18.0));
-            let handle = ui.interact(area, ui.scope_id().with(("clip", i)), Sense::drag());
-            let color = if handle.hovered() || handle.dragged() { Color32::WHITE } else { Color32::from_gray(210) };
-            let painter = ui.painter_at(picture.rect);
-            painter.arrow(from, to - from, Stroke::new(4.0, Color32::from_black_alpha(160)));
-            painter.arrow(from, to - from, Stroke::new(2.0, color));
-            painter.circle(from, 6.0, color, Stroke::new(1.5, Color32::BLACK));
-            handle.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, format!("Clip plane {i}")));
-            is_taken |= handle.hovered() || handle.dragged();
-            let along = to - from;
-            if handle.dragged() && along.length() > 4.0 {
-                // The share of the arrow that the pointer moved along it.
-                let share = f64::from(handle.drag_delta().dot(along) / along.length_sq());
-                let moved = point + normal * (share * (tip - foot).length());
-                set_point(session, i, clip, moved, grid);
+            let handle = Handle { name: &format!("Clip plane {i}"), foot, tip, color: Color32::from_gray(210) };
+            let grip = handle.show(ui, ui.scope_id().with(("clip", i)), picture, &pose.view);
+            is_taken |= grip.is_taken;
+            if let Some(by) = grip.by {
+                set_point(session, i, clip, point + by, grid);
             }
         }
         is_taken
