@@ -11,6 +11,7 @@
 //! | [`focus`] | halos focused at a place |
 //! | [`compare`] | the card against the reference, in the background |
 //! | [`camera`] | moves of the camera in closed form |
+//! | [`views`] | cameras that are kept by a name |
 //! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
 //! | [`commands`] | the list that menus, keys and the palette share |
 //! | [`export`] | the reference's picture, in the background |
@@ -44,4 +45,5 @@ pub mod screen;
 pub mod session;
 pub mod slice;
 pub mod state;
+pub mod views;
 pub mod widgets;

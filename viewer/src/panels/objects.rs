@@ -41,13 +41,14 @@ pub(super) struct ObjectsPanel {
     keys: Vec<Node>,
     chosen: usize,
     tool: PaintTool,
-    shows_handles: bool,
+    /// Whether the panel is in front; the object then has handles.
+    is_shown: bool,
 }
 
 impl Default for ObjectsPanel {
     fn default() -> Self {
         let keys = Node::scene().children().iter().find(|key| key.name == "object").map(|key| key.children().to_vec());
-        Self { keys: keys.unwrap_or_default(), chosen: 0, tool: PaintTool::default(), shows_handles: false }
+        Self { keys: keys.unwrap_or_default(), chosen: 0, tool: PaintTool::default(), is_shown: false }
     }
 }
 
@@ -57,6 +58,7 @@ impl Panel for ObjectsPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {
+        self.is_shown = true;
         let Some(scene) = session.scene.clone() else {
             ui.weak("The volume is being read.");
             return;
@@ -94,7 +96,6 @@ impl Panel for ObjectsPanel {
             _ => {}
         }
         ui.separator();
-        ui.checkbox(&mut self.shows_handles, "Handles that move it");
         if object.motion.matrix.is_some() {
             ui.weak("It is moved by a matrix, which is edited among all keys.");
         }
@@ -109,6 +110,7 @@ impl Panel for ObjectsPanel {
     }
 
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
+        let is_shown = std::mem::take(&mut self.is_shown);
         let Some(scene) = session.scene.clone() else { return false };
         let is_painted = |object: &&ObjectTable| object.strokes.is_some() && object.volume.is_none();
         let object = scene.objects.get(self.chosen);
@@ -117,7 +119,7 @@ impl Panel for ObjectsPanel {
             session.notice = "The panel of objects adds an object to paint".into();
         }
         let is_brush = self.tool.over_picture(ui, picture, session, self.chosen);
-        let is_handle = match object.filter(|_| self.shows_handles && !is_brush) {
+        let is_handle = match object.filter(|_| is_shown && !is_brush) {
             Some(object) => self.handles(ui, picture, session, object),
             None => false,
         };
