@@ -121,7 +121,7 @@ impl Viewer {
                 ui.separator();
                 let all = self.session.warnings.join("\n");
                 ui.add(
-                    egui::Label::new(RichText::new(format!("⚠ {warning}")).color(ui.visuals().warn_fg_color))
+                    egui::Label::new(RichText::new(format!("Warning: {warning}")).color(ui.visuals().warn_fg_color))
                         .truncate(),
                 )
                 .on_hover_text(all);

@@ -64,31 +64,27 @@ impl Panel for ObjectsPanel {
             return;
         };
         ui.horizontal(|ui| {
-            let name = |i: usize| scene.objects.get(i).map_or("no object", |object| object.name.as_str());
-            let combo = ComboBox::from_id_salt("object").selected_text(name(self.chosen)).width(130.0);
+            self.chosen = self.chosen.min(scene.objects.len());
+            let name = |i: usize| scene.objects.get(i).map_or("a new object", |object| object.name.as_str());
+            let combo = ComboBox::from_id_salt("object").selected_text(name(self.chosen)).width(150.0);
             let shown = combo.show_ui(ui, |ui| {
-                for i in 0..scene.objects.len() {
+                for i in 0..=scene.objects.len() {
                     ui.selectable_value(&mut self.chosen, i, name(i));
                 }
             });
             crate::widgets::named(&shown.response, "Object");
-            if ui.button("Add").on_hover_text("Adds an object that is painted").clicked() {
-                self.chosen = scene.objects.len();
-                add(session, self.chosen);
-            }
             if ui.add_enabled(self.chosen < scene.objects.len(), egui::Button::new("Remove")).clicked() {
                 let key = KeyPath::from("object").item(self.chosen);
                 session.edit(&format!("remove {key}"), vec![Edit::Remove(key)]);
             }
         });
+        ui.separator();
         let Some(object) = scene.objects.get(self.chosen) else {
-            ui.label(
-                "An object is a part of the volume with a look of its own. It is painted, or chosen by value or label.",
-            );
+            ui.label("A part of the volume with a look of its own. The first stroke of the brush makes it.");
+            self.tool.ui(ui, session);
             return;
         };
         let key = KeyPath::from("object").item(self.chosen);
-        ui.separator();
         let given = self.selected_by(ui, session, &key);
         match given {
             Some("strokes") if object.volume.is_none() => self.tool.ui(ui, session),
@@ -112,11 +108,10 @@ impl Panel for ObjectsPanel {
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
         let is_shown = std::mem::take(&mut self.is_shown);
         let Some(scene) = session.scene.clone() else { return false };
-        let is_painted = |object: &&ObjectTable| object.strokes.is_some() && object.volume.is_none();
         let object = scene.objects.get(self.chosen);
-        if session.is_painting && !object.is_some_and(|object| is_painted(&object)) {
+        if session.is_painting && object.is_some_and(|object| object.strokes.is_none() || object.volume.is_some()) {
             session.is_painting = false;
-            session.notice = "The panel of objects adds an object to paint".into();
+            session.notice = format!("{} is not selected by a brush", object.map_or("", |object| &object.name));
         }
         let is_brush = self.tool.over_picture(ui, picture, session, self.chosen);
         let is_handle = match object.filter(|_| is_shown && !is_brush) {
@@ -192,34 +187,29 @@ impl ObjectsPanel {
     }
 }
 
-/// Returns a first value of a key that says how an object is selected.
+/// Returns a first value of a key that says how an object is selected: the upper half of the values, or label 1.
 fn first(session: &Session, name: &str) -> Value {
-    match name {
-        "label" => 1.into(),
-        "value" => {
-            let [lo, hi] = session.data.as_ref().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
-            let pair = |share: f64, membership: i64| {
-                Value::Array(Array::from_iter([number(lo + (hi - lo) * share), membership.into()]))
-            };
-            Value::Array(Array::from_iter([pair(0.5, 0), pair(0.625, 1)]))
-        }
-        // One stroke a line.
-        _ => {
-            let mut strokes = Array::new();
-            strokes.set_trailing("\n");
-            strokes.into()
-        }
+    if name == "label" {
+        return 1.into();
     }
+    let [lo, hi] = session.data.as_ref().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
+    let pair = |share: f64, membership: i64| {
+        Value::Array(Array::from_iter([number(lo + (hi - lo) * share), membership.into()]))
+    };
+    Value::Array(Array::from_iter([pair(0.5, 0), pair(0.625, 1)]))
 }
 
-/// Adds an object that is painted, with the picture's function in another colour or style. A soft selection shares with the
-/// background what both are made of, unless the scene says how they are combined.
-fn add(session: &mut Session, index: usize) {
-    let name = match index {
-        0 => "painted".into(),
-        n => format!("painted {n}"),
-    };
-    let mut object = InlineTable::from_iter([("name", Value::from(name)), ("strokes", first(session, "strokes"))]);
+/// Returns the edits that add an object to paint, with the picture's function in another colour or style. It has no stroke
+/// yet, so dabs must follow. A soft selection shares with the background what both are made of, unless the scene says how
+/// they are combined.
+pub(super) fn new_object(session: &Session, index: usize) -> Vec<Edit> {
+    let is_taken = |name: &String| session.scene.iter().any(|scene| scene.objects.iter().any(|o| o.name == *name));
+    let names = (1..).map(|n| if n == 1 { "painted".to_owned() } else { format!("painted {n}") });
+    let name = names.into_iter().find(|name| !is_taken(name)).unwrap_or_default();
+    // One stroke a line.
+    let mut strokes = Array::new();
+    strokes.set_trailing("\n");
+    let mut object = InlineTable::from_iter([("name", Value::from(name)), ("strokes", strokes.into())]);
     if let Some(transfer) = session.prepared.as_ref().and_then(|scene| look(scene)) {
         object.insert("transfer", transfer.into());
     }
@@ -227,7 +217,7 @@ fn add(session: &mut Session, index: usize) {
     if session.document.get(&"combine".into()).is_none() {
         edits.push(Edit::set("combine.fuzzy", "product"));
     }
-    session.edit("add an object", edits);
+    edits
 }
 
 /// Returns the function of what is painted: the picture's in one style or colour. None for a function over two quantities.

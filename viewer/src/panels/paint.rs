@@ -1,6 +1,7 @@
 //! The brush: it is dragged over the picture and appends its dabs to the strokes of an object ([VS-6]).
 
 use super::PictureArea;
+use super::objects::new_object;
 use crate::brush::{BrushPicker, BrushPlaces, BrushQuery, picker};
 use crate::camera::{place, rounded};
 use crate::document::Edit;
@@ -189,10 +190,14 @@ impl PaintTool {
             Err(failures) => return session.notice = failures.to_string(),
         };
         self.depth = found.last().map(|picked| picked.depth).or(self.depth);
-        let Some(data) = session.data.clone().filter(|_| is_dabs) else { return };
+        let Some(data) = session.data.clone().filter(|_| is_dabs && !found.is_empty()) else { return };
         let strokes = KeyPath::from("object").item(object).name("strokes");
         let dab = |at| Edit::Insert(strokes.clone(), usize::MAX, self.dab(at, data.volume.grid()));
-        let edits = found.iter().map(|picked| dab(picked.world)).collect();
+        let mut edits = match session.document.get(&KeyPath::from("object").item(object)) {
+            Some(_) => Vec::new(),
+            None => new_object(session, object),
+        };
+        edits.extend(found.iter().map(|picked| dab(picked.world)));
         session.edit(&format!("paint stroke {}", self.strokes), edits);
     }
 
