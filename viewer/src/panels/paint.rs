@@ -79,7 +79,7 @@ impl PaintTool {
                 ui.selectable_value(&mut self.shape, shape, shape);
             }
         });
-        ui.weak(
+        ui.label(
             "A drag in the picture paints what is seen there. With Ctrl it turns the picture, with Shift it moves it.",
         );
     }
