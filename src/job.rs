@@ -291,7 +291,7 @@ impl Job {
     /// Returns the corners of the box of a part in world space, x fastest: of the volume, of an object's selection where
     /// it is moved, or of its ghost. `objects` are those of the scene, or of a variant of it. Returns none for objects if
     /// the volume is not drawn.
-    pub(crate) fn corners(&self, objects: &[ObjectTable], part: &PartName) -> Option<[DVec3; 8]> {
+    pub fn corners(&self, objects: &[ObjectTable], part: &PartName) -> Option<[DVec3; 8]> {
         let (name, role) = match part {
             PartName::Background => return Some(self.volume.grid().world_corners()),
             PartName::Selection(name) => (name, Role::Selection),

@@ -20,7 +20,7 @@ use crate::state::State;
 use drypoint::gpu::{Gpu, wgpu};
 use eframe::egui::{self, CentralPanel, Context, Ui, ViewportCommand};
 use eframe::egui_wgpu::RenderState;
-use egui_tiles::Tree;
+use egui_tiles::{Tile, Tree};
 use layout::{Layout, Pane};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -55,6 +55,8 @@ pub struct Viewer {
     export: Option<Export>,
     /// The text of an earlier session that was not saved, until the user decides on it.
     recovered: Option<String>,
+    /// The name of the next view to be saved.
+    view_name: String,
     is_asking_to_close: bool,
     may_close: bool,
     looked: Instant,
@@ -89,6 +91,7 @@ impl Viewer {
             palette: Palette::default(),
             export: None,
             recovered: None,
+            view_name: String::new(),
             is_asking_to_close: false,
             may_close: false,
             looked: Instant::now(),
@@ -104,6 +107,13 @@ impl Viewer {
     /// Writes a picture of the window to a PNG file once the frame is exact, and closes the window.
     pub fn take_screenshot(&mut self, path: PathBuf) {
         self.screenshot = Some(path);
+    }
+
+    /// Opens the panel with a title.
+    pub fn open_panel(&mut self, title: &str) {
+        let panels = &self.panels;
+        let has_title = |i: &usize| panels.get(*i).is_some_and(|panel| panel.title().eq_ignore_ascii_case(title));
+        self.tree.make_active(|_, tile| matches!(tile, Tile::Pane(Pane::Panel(i)) if has_title(i)));
     }
 
     /// Opens a scene or a volume in place of the document.
@@ -160,7 +170,8 @@ impl Viewer {
             self.changed = (revision, Instant::now());
         }
         let (is_released, is_down) = ctx.input(|input| (input.pointer.any_released(), input.pointer.any_down()));
-        if is_released || !is_down && self.changed.1.elapsed() > PAUSE {
+        let is_over = is_released || !is_down && self.changed.1.elapsed() > PAUSE;
+        if is_over && !self.session.is_stroke_open {
             self.session.document.seal();
         }
     }

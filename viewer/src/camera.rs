@@ -178,9 +178,14 @@ pub fn rounded(x: f64, decimals: i32) -> f64 {
     if rounded.is_finite() { rounded + 0.0 } else { x }
 }
 
-/// A point of the world with decimals to a thousandth of a voxel.
+/// Decimals of a length, to a thousandth of a voxel.
+pub(crate) fn decimals(grid: &Grid) -> i32 {
+    3 - grid.voxel().log10().floor() as i32
+}
+
+/// A point of the world, to a thousandth of a voxel.
 pub(crate) fn place(p: DVec3, grid: &Grid) -> Value {
-    numbers(p, 3 - grid.voxel().log10().floor() as i32)
+    numbers(p, decimals(grid))
 }
 
 /// A list of three numbers, whole ones without a point.

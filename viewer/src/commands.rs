@@ -18,6 +18,8 @@ pub enum Action {
     Export,
     /// Focuses the halos on the cross-hair.
     FocusHalos,
+    /// Turns the brush on and off.
+    Paint,
     /// Removes the cross-hair.
     RemoveCross,
     /// Copies the picture that is shown.
@@ -88,6 +90,7 @@ pub const COMMANDS: &[Command] = &[
     command("Edit", "Undo", Some((CTRL, Key::Z)), Action::Undo),
     command("Edit", "Copy the picture", Some((SHIFT, Key::C)), Action::Copy),
     command("Edit", "Focus halos at the cross-hair", Some((CTRL, Key::H)), Action::FocusHalos),
+    command("Edit", "Paint on or off", Some((NONE, Key::B)), Action::Paint),
     command("View", "All commands…", Some((CTRL, Key::P)), Action::Palette),
     command("View", "From the front", Some((NONE, Key::Num1)), Action::Look(Side::Front)),
     command("View", "From the back", Some((NONE, Key::Num2)), Action::Look(Side::Back)),

@@ -137,7 +137,10 @@ fn insert_inline(array: &mut Array, index: usize, table: InlineTable) {
         }
     } else {
         let like = if index == array.len() { index.saturating_sub(1) } else { index };
-        let indent = space(array, like).rsplit('\n').next().unwrap_or_default().to_owned();
+        let indent = match array.is_empty() {
+            true => "  ".to_owned(),
+            false => space(array, like).rsplit('\n').next().unwrap_or_default().to_owned(),
+        };
         value.decor_mut().set_prefix(format!("{before}\n{indent}"));
         array.insert_formatted(index, value);
         set_space(array, index + 1, after);

@@ -19,9 +19,10 @@ use drypoint::gpu::{Gpu, GpuFrames};
 use drypoint::job::{Job, RenderTarget, read_volume};
 use drypoint::marking::Marking;
 use drypoint::scene::counts::Counts;
+use drypoint::scene::glam::DVec3;
 use drypoint::scene::shot::Shot;
 use drypoint::scene::source::Disk;
-use drypoint::scene::tables::{Camera, Scene, VolumeTable};
+use drypoint::scene::tables::{Camera, PaintTarget, PartName, Scene, VolumeTable};
 use drypoint::scene::view::View;
 use drypoint::scene::volume::Volume;
 use drypoint::scene::volume::histogram::Histogram;
@@ -79,6 +80,8 @@ pub struct Prepared {
     pub warnings: Vec<String>,
     /// The colours of the volume's values in the scene's function.
     pub colors: Arc<ValueColors>,
+    /// The box of each object in the world where it is not moved, x fastest.
+    pub boxes: Vec<Option<[DVec3; 8]>>,
 }
 
 /// An answer of the thread.
@@ -162,7 +165,13 @@ impl Artist {
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
         let range = self.data.as_ref().map_or(job.volume.range(), |(_, data)| [data.histogram.lo, data.histogram.hi]);
         let colors = Arc::new(ValueColors::of(job, range));
-        self.desk.answer(Answer::Prepared(Prepared { scene: Arc::new(job.scene.clone()), warnings, colors }));
+        let boxes = job
+            .scene
+            .objects
+            .iter()
+            .map(|object| job.corners(&job.scene.objects, &PartName::Ghost(object.name.clone())))
+            .collect();
+        self.desk.answer(Answer::Prepared(Prepared { scene: Arc::new(job.scene.clone()), warnings, colors, boxes }));
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {
@@ -279,7 +288,10 @@ pub fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
 /// at a pixel.
 pub(crate) fn only_turns(before: &Scene, after: &Scene) -> bool {
     let picks = before.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
-        || before.objects.iter().any(|object| object.strokes.is_some());
+        || before.objects.iter().flat_map(|object| object.strokes.iter().flatten()).any(|stroke| {
+            // Brushes at points of the world stay there.
+            matches!(stroke.target, PaintTarget::Pixel(_))
+        });
     let Camera { projection, near, .. } = after.camera;
     let camera = Camera { projection, near, ..before.camera.clone() };
     !picks && Scene { camera, ..after.clone() } == *before

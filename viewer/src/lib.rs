@@ -6,16 +6,19 @@
 //! | [`session`] | the document with its scene, its volume, its frame; what panels share |
 //! | [`frames`] | the thread that draws |
 //! | [`probe`] | the thread that tells what is seen at a pixel |
+//! | `brush.rs` | the thread that tells where a brush meets the volume |
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
 //! | [`focus`] | halos focused at a place |
 //! | [`compare`] | the card against the reference, in the background |
 //! | [`camera`] | moves of the camera in closed form |
+//! | [`views`] | cameras that are kept by a name |
 //! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
 //! | [`commands`] | the list that menus, keys and the palette share |
 //! | [`export`] | the reference's picture, in the background |
 
 pub mod app;
 mod background;
+mod brush;
 pub mod camera;
 pub mod canvas;
 pub mod commands;
@@ -42,4 +45,5 @@ pub mod screen;
 pub mod session;
 pub mod slice;
 pub mod state;
+pub mod views;
 pub mod widgets;

@@ -1,6 +1,6 @@
 //! The window of Drypoint.
 //!
-//! `drypoint-viewer [FILE] [--backend NAME] [--screenshot PNG]`: FILE is a scene or a volume. Without one the window shows the example.
+//! `drypoint-viewer [FILE] [--backend NAME] [--panel TITLE] [--screenshot PNG]`: FILE is a scene or a volume. Without one the window shows the example.
 
 use drypoint::gpu::Gpu;
 use drypoint_viewer::app::{Backend, Viewer};
@@ -13,16 +13,17 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 /// How the program is called.
-const USAGE: &str = "Usage: drypoint-viewer [FILE] [--backend NAME] [--screenshot PNG]
+const USAGE: &str = "Usage: drypoint-viewer [FILE] [--backend NAME] [--panel TITLE] [--screenshot PNG]
 
 Opens a window in which a volume is turned and its scene file edited.
   FILE              a scene (.toml) or a volume; without one the example
   --backend NAME    what draws the frames: auto, gpu or reference; auto is gpu where there is a graphics card
+  --panel TITLE     opens this panel beside the picture, such as Objects
   --screenshot PNG  writes a picture of the window once the frame is exact, and ends
 ";
 
 fn main() -> ExitCode {
-    let (mut file, mut screenshot, mut backend) = (None, None, Backend::Auto);
+    let (mut file, mut screenshot, mut panel, mut backend) = (None, None, None, Backend::Auto);
     let mut arguments = std::env::args_os().skip(1);
     while let Some(argument) = arguments.next() {
         match argument.to_str() {
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
                     return ExitCode::from(2);
                 }
             },
+            Some("--panel") => panel = arguments.next().and_then(|title| title.into_string().ok()),
             Some("--screenshot") => screenshot = arguments.next().map(PathBuf::from),
             Some(option) if option.starts_with('-') => {
                 eprint!("error: there is no option {option}\n{USAGE}");
@@ -51,7 +53,7 @@ fn main() -> ExitCode {
             _ => file = Some(PathBuf::from(argument)),
         }
     }
-    match run(file, backend, screenshot) {
+    match run(file, backend, panel, screenshot) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{error}");
@@ -60,7 +62,12 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(file: Option<PathBuf>, backend: Backend, screenshot: Option<PathBuf>) -> Result<(), Box<dyn std::error::Error>> {
+fn run(
+    file: Option<PathBuf>,
+    backend: Backend,
+    panel: Option<String>,
+    screenshot: Option<PathBuf>,
+) -> Result<(), Box<dyn std::error::Error>> {
     let document = match &file {
         Some(file) => open::open(file)?,
         None => open::example(),
@@ -83,6 +90,7 @@ fn run(file: Option<PathBuf>, backend: Backend, screenshot: Option<PathBuf>) -> 
     let create = move |creation: &eframe::CreationContext<'_>| {
         let render = creation.wgpu_render_state.clone();
         let mut viewer = Viewer::new(&creation.egui_ctx, render, backend, document, state);
+        panel.into_iter().for_each(|title| viewer.open_panel(&title));
         screenshot.into_iter().for_each(|path| viewer.take_screenshot(path));
         Ok(Box::new(Window(viewer)) as Box<dyn eframe::App>)
     };

@@ -13,7 +13,8 @@ const ARM: f32 = 12.0;
 
 /// Shows the numbers of the place under a pointer that rests, and the cross-hair. `is_taken`: the pointer is on a handle.
 pub(crate) fn point(ui: &Ui, session: &mut Session, picture: &PictureArea, is_taken: bool) {
-    if let Some(pixel) = pixel_under(picture).filter(|_| !is_taken) {
+    let pixel = picture.response.hover_pos().and_then(|at| picture.pixel_at(at));
+    if let Some(pixel) = pixel.filter(|_| !is_taken) {
         let rested = ui.input(|input| input.pointer.time_since_last_movement());
         if picture.response.clicked() {
             session.ask_pixel(pixel, true);
@@ -36,13 +37,6 @@ pub(crate) fn point(ui: &Ui, session: &mut Session, picture: &PictureArea, is_ta
             }
         }
     }
-}
-
-/// Returns the pixel of the scene's picture under the pointer.
-fn pixel_under(picture: &PictureArea) -> Option<[usize; 2]> {
-    let at = picture.response.hover_pos().filter(|at| picture.rect.contains(*at))?;
-    let pixel = picture.pixel(at);
-    Some(std::array::from_fn(|axis| (pixel[axis] as usize).min(picture.size[axis].saturating_sub(1))))
 }
 
 /// Shows the numbers of a pixel in the lower left corner of the picture, once they are known.

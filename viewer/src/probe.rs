@@ -9,7 +9,7 @@ use drypoint::job::{Job, RenderTarget};
 use drypoint::picking::{pick_pixel, room_to_probe};
 use drypoint::reference::field::probe::at_index;
 use drypoint::reference::field::{Field, Reconstruction, Rung};
-use drypoint::reference::ray::Picked;
+use drypoint::reference::ray::{Picked, Renderer};
 use drypoint::scene::picture::LayerKind;
 use drypoint::scene::source::Disk;
 use drypoint::scene::tables::Scene;
@@ -161,15 +161,24 @@ fn serve(
             }
         }
         let Some(newer) = desk.wait() else { return Ok(None) };
-        if !Arc::ptr_eq(&query.volume, &newer.volume) || !only_turns(&query.scene, &newer.scene) {
+        let is_same = Arc::ptr_eq(&query.volume, &newer.volume);
+        if !is_same || !follow(job, &mut renderer, [&query.scene, &newer.scene])? {
             return Ok(Some(newer));
-        }
-        if newer.scene.camera != query.scene.camera {
-            let turned = renderer.turn(&shot(job, &newer.scene.camera, NonZeroUsize::MIN)?);
-            turned.map_err(|error| Failure::new(error, "camera", "undo the last change"))?;
         }
         query = newer;
     }
+}
+
+/// Turns a job's renderer from one scene to another. Returns whether only the camera differs, as it must.
+pub(crate) fn follow(job: &Job, renderer: &mut Renderer<'_>, [from, to]: [&Scene; 2]) -> Result<bool, Failure> {
+    if !only_turns(from, to) {
+        return Ok(false);
+    }
+    if to.camera != from.camera {
+        let turned = renderer.turn(&shot(job, &to.camera, NonZeroUsize::MIN)?);
+        turned.map_err(|error| Failure::new(error, "camera", "undo the last change"))?;
+    }
+    Ok(true)
 }
 
 /// Returns the field of a job with its second derivatives, if there is memory for it.

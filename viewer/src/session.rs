@@ -58,6 +58,12 @@ pub struct Session {
     pub cross: Option<DVec3>,
     /// The last answer about a pixel.
     pub probed: Option<PixelReport>,
+    /// The box of each object in the world where it is not moved, x fastest. None while it is not known.
+    pub boxes: Vec<Option<[DVec3; 8]>>,
+    /// Whether the brush is on.
+    pub is_painting: bool,
+    /// Whether dabs of a stroke are still to come, which are undone with those before.
+    pub is_stroke_open: bool,
     screen: Screen,
     worker: Worker,
     prober: Prober,
@@ -87,6 +93,9 @@ impl Session {
             notice: String::new(),
             cross: None,
             probed: None,
+            boxes: Vec::new(),
+            is_painting: false,
+            is_stroke_open: false,
             screen,
             worker,
             prober,
@@ -103,6 +112,7 @@ impl Session {
         self.asked = None;
         (self.scene, self.prepared, self.failures) = (None, None, None);
         (self.cross, self.probed, self.awaits_click) = (None, None, false);
+        (self.boxes, self.is_painting) = (Vec::new(), false);
         self.notice.clear();
     }
 
@@ -131,8 +141,9 @@ impl Session {
                     self.cross = self.cross.filter(|cross| is_inside(grid.to_index(*cross)));
                     self.data = Some(data);
                 }
-                Answer::Prepared(Prepared { scene, warnings, colors }) => {
+                Answer::Prepared(Prepared { scene, warnings, colors, boxes }) => {
                     (self.prepared, self.warnings, self.colors) = (Some(scene), warnings, Some(colors));
+                    self.boxes = boxes;
                 }
                 Answer::Drawn(frame) => {
                     let (size, is_coarse, seconds, serial) =

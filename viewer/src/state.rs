@@ -1,5 +1,6 @@
-//! State that is kept between sessions: recent files, the look of the window, and texts that were not saved.
+//! State that is kept between sessions: recent files, the look of the window, saved views, and texts that were not saved.
 
+use crate::views::SavedView;
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
 use std::hash::{Hash, Hasher};
@@ -19,6 +20,8 @@ pub struct State {
     pub is_dark: bool,
     /// The scale of text and controls.
     pub scale: f32,
+    /// Cameras that are kept by a name.
+    pub views: Vec<SavedView>,
 }
 
 impl State {
@@ -27,8 +30,10 @@ impl State {
         let text = folder.as_ref().and_then(|folder| fs::read_to_string(folder.join("window.toml")).ok());
         let kept = text.and_then(|text| text.parse::<DocumentMut>().ok()).unwrap_or_default();
         let recent = kept.get("recent").and_then(|recent| recent.as_array()).into_iter().flatten();
+        let views = kept.get("views").and_then(|views| views.as_array()).into_iter().flatten();
         Self {
             folder,
+            views: views.filter_map(SavedView::read).collect(),
             recent: recent.filter_map(|path| path.as_str().map(PathBuf::from)).take(RECENT).collect(),
             is_dark: kept.get("dark").and_then(|dark| dark.as_bool()).unwrap_or(true),
             scale: kept.get("scale").and_then(|scale| scale.as_float()).map_or(1.0, |x| (x as f32).clamp(0.5, 3.0)),
@@ -47,6 +52,7 @@ impl State {
         kept["recent"] = value(self.recent.iter().filter_map(|path| path.to_str()).collect::<Array>());
         kept["dark"] = value(self.is_dark);
         kept["scale"] = value(f64::from(self.scale));
+        kept["views"] = value(self.views.iter().map(SavedView::written).collect::<Array>());
         self.put("window.toml", &kept.to_string());
     }
 

@@ -2,14 +2,18 @@
 
 use super::Viewer;
 use crate::commands::{Action, COMMANDS, MENUS};
-use eframe::egui::{self, Align2, Context, RichText, Ui, ViewportCommand};
+use crate::views::SavedView;
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
+use eframe::egui::{self, Align2, Context, PopupCloseBehavior, RichText, Ui, ViewportCommand};
 
 impl Viewer {
     pub(super) fn menus(&mut self, ui: &mut Ui) -> Vec<Action> {
         let mut actions = Vec::new();
         egui::MenuBar::new().ui(ui, |ui| {
             for menu in MENUS {
-                ui.menu_button(menu, |ui| {
+                // Buttons close their menu themselves, so that a text can be typed in one.
+                let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+                MenuButton::new(menu).config(config).ui(ui, |ui| {
                     for command in COMMANDS.iter().filter(|command| command.menu == menu) {
                         let keys = command.keys.map(|keys| ui.ctx().format_shortcut(&keys)).unwrap_or_default();
                         let button = egui::Button::new(command.name).shortcut_text(keys);
@@ -18,8 +22,10 @@ impl Viewer {
                             ui.close();
                         }
                     }
-                    if menu == "File" {
-                        self.recent(ui);
+                    match menu {
+                        "File" => self.recent(ui),
+                        "View" => self.saved_views(ui),
+                        _ => {}
                     }
                 });
             }
@@ -39,6 +45,44 @@ impl Viewer {
             }
         }
         chosen.into_iter().for_each(|path| self.open(&path));
+    }
+
+    /// Saves the camera by a name, and lists those of this scene.
+    fn saved_views(&mut self, ui: &mut Ui) {
+        ui.separator();
+        ui.weak("Saved views");
+        ui.horizontal(|ui| {
+            let field = egui::TextEdit::singleline(&mut self.view_name).hint_text("name").desired_width(120.0);
+            crate::widgets::named(&ui.add(field), "Name of the view");
+            let name = self.view_name.trim();
+            if ui.add_enabled(!name.is_empty(), egui::Button::new("Save the view")).clicked() {
+                let view = SavedView::of(&self.session.document, name);
+                self.state.views.retain(|other| !other.replaces(&view));
+                self.state.views.push(view);
+                self.state.write();
+                self.view_name.clear();
+            }
+        });
+        let mut forgotten = None;
+        for (i, view) in self.state.views.iter().enumerate() {
+            if !view.is_of(&self.session.document) {
+                continue;
+            }
+            ui.horizontal(|ui| {
+                if ui.button(&view.name).clicked() {
+                    let edits = view.edits(&self.session.document);
+                    self.session.edit("take a saved view", edits);
+                    ui.close();
+                }
+                if ui.small_button("×").on_hover_text(format!("Forget {}", view.name)).clicked() {
+                    forgotten = Some(i);
+                }
+            });
+        }
+        if let Some(i) = forgotten {
+            self.state.views.remove(i);
+            self.state.write();
+        }
     }
 
     fn is_possible(&self, action: Action) -> bool {
@@ -77,7 +121,7 @@ impl Viewer {
                 ui.separator();
                 let all = self.session.warnings.join("\n");
                 ui.add(
-                    egui::Label::new(RichText::new(format!("⚠ {warning}")).color(ui.visuals().warn_fg_color))
+                    egui::Label::new(RichText::new(format!("Warning: {warning}")).color(ui.visuals().warn_fg_color))
                         .truncate(),
                 )
                 .on_hover_text(all);

@@ -39,6 +39,7 @@ impl Viewer {
                 }
                 _ => session.notice = "A click in the picture tells where the focus is".into(),
             },
+            Action::Paint => session.is_painting = !session.is_painting,
             Action::RemoveCross => session.cross = None,
             Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Action::Undo => drop(session.document.undo()),

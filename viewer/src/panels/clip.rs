@@ -1,15 +1,17 @@
-//! Clip planes: a slider through the volume for each, its direction, and a handle on the picture.
+//! Clip planes and boxes: a slider through the volume for each plane, its direction, and handles on the picture.
 
+use super::handle::Handle;
 use super::{Panel, PictureArea};
-use crate::camera::{numbers, place};
+use crate::camera::{decimals, number, numbers, place, rounded};
 use crate::document::Edit;
 use crate::key::KeyPath;
 use crate::session::Session;
-use drypoint::scene::glam::DVec3;
+use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Clip, ClipSpace};
-use eframe::egui::{self, Color32, Sense, Slider, Stroke, Ui, Vec2};
-use toml_edit::InlineTable;
+use drypoint::scene::view::View;
+use eframe::egui::{self, Color32, Slider, Ui};
+use toml_edit::{Array, InlineTable, Value};
 
 /// The panel of clip planes.
 pub(super) struct ClipPanel;
@@ -38,7 +40,7 @@ impl Panel for ClipPanel {
                 });
                 match world_plane(clip, grid) {
                     Some(plane) => plane_ui(ui, session, i, clip, plane, grid),
-                    None => drop(ui.weak("A box. Its sides are edited among all keys.")),
+                    None => drop(ui.weak("A box is kept. Its sides have handles on the picture.")),
                 }
             }
             ui.separator();
@@ -54,6 +56,9 @@ impl Panel for ClipPanel {
                 {
                     add(session, scene.clips.len(), -pose.view.forward, grid);
                 }
+                if ui.button("or a box").clicked() {
+                    add_box(session, scene.clips.len(), grid);
+                }
             });
         });
     }
@@ -66,30 +71,18 @@ impl Panel for ClipPanel {
         let grid = data.volume.grid();
         let mut is_taken = false;
         for (i, clip) in scene.clips.iter().enumerate() {
-            let Some(Plane { point, normal }) = world_plane(clip, grid) else { continue };
+            let Some(Plane { point, normal }) = world_plane(clip, grid) else {
+                is_taken |= sides(ui, picture, session, (i, clip), (grid, &pose.view));
+                continue;
+            };
             // The handle stands on the plane, nearest to the volume's middle, with an arrow to what is cut away.
             let foot = grid.centre() + normal * (point - grid.centre()).dot(normal);
             let tip = foot + normal * (0.15 * grid.radius());
-            let ends = [foot, tip].map(|p| pose.view.point_of(p).map(|p| picture.place(p)));
-            let [Some(from), Some(to)] = ends else { continue };
-            if !picture.rect.contains(from) {
-                continue;
-            }
-            let area = egui::Rect::from_center_size(from, Vec2::splat(18.0));
-            let handle = ui.interact(area, ui.scope_id().with(("clip", i)), Sense::drag());
-            let color = if handle.hovered() || handle.dragged() { Color32::WHITE } else { Color32::from_gray(210) };
-            let painter = ui.painter_at(picture.rect);
-            painter.arrow(from, to - from, Stroke::new(4.0, Color32::from_black_alpha(160)));
-            painter.arrow(from, to - from, Stroke::new(2.0, color));
-            painter.circle(from, 6.0, color, Stroke::new(1.5, Color32::BLACK));
-            handle.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, format!("Clip plane {i}")));
-            is_taken |= handle.hovered() || handle.dragged();
-            let along = to - from;
-            if handle.dragged() && along.length() > 4.0 {
-                // The share of the arrow that the pointer moved along it.
-                let share = f64::from(handle.drag_delta().dot(along) / along.length_sq());
-                let moved = point + normal * (share * (tip - foot).length());
-                set_point(session, i, clip, moved, grid);
+            let handle = Handle { name: &format!("Clip plane {i}"), foot, tip, color: Color32::from_gray(210) };
+            let grip = handle.show(ui, ui.scope_id().with(("clip", i)), picture, &pose.view);
+            is_taken |= grip.is_taken;
+            if let Some(by) = grip.by {
+                set_point(session, i, clip, point + by, grid);
             }
         }
         is_taken
@@ -152,4 +145,53 @@ fn set_point(session: &mut Session, i: usize, clip: &Clip, point: DVec3, grid: &
 fn add(session: &mut Session, index: usize, normal: DVec3, grid: &Grid) {
     let table = InlineTable::from_iter([("normal", numbers(normal, 6)), ("point", place(grid.centre(), grid))]);
     session.edit("add a clip plane", vec![Edit::Insert("clip".into(), index, table)]);
+}
+
+/// Shows a handle on each side of a box, and moves the side. Returns whether the pointer is on a handle.
+fn sides(
+    ui: &Ui,
+    picture: &PictureArea,
+    session: &mut Session,
+    (i, clip): (usize, &Clip),
+    (grid, view): (&Grid, &View),
+) -> bool {
+    let Some(extent) = clip.extent else { return false };
+    let (axes, to_world): (DMat3, &dyn Fn(DVec3) -> DVec3) = match clip.space {
+        ClipSpace::World => (DMat3::IDENTITY, &|p| p),
+        ClipSpace::Index => (grid.axes(), &|p| grid.to_world(p)),
+    };
+    let middle = DVec3::from_array(extent.map(|[lo, hi]| (lo + hi) / 2.0));
+    let mut is_taken = false;
+    for (axis, side) in (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]) {
+        let mut at = middle;
+        at[axis] = extent[axis][side];
+        let (foot, unit) = (to_world(at), axes.col(axis));
+        let outward = unit.normalize_or_zero() * if side == 0 { -1.0 } else { 1.0 };
+        let tip = foot + outward * (0.15 * grid.radius());
+        let name = format!("Clip box {i}, {} {}", ["x", "y", "z"][axis], ["from", "to"][side]);
+        let handle = Handle { name: &name, foot, tip, color: Color32::from_gray(210) };
+        let grip = handle.show(ui, ui.scope_id().with(("box", i, axis, side)), picture, view);
+        is_taken |= grip.is_taken;
+        if let Some(by) = grip.by {
+            let to = extent[axis][side] + by.dot(unit) / unit.length_squared();
+            // A thousandth of a voxel, and never beyond the other side.
+            let decimals = if clip.space == ClipSpace::Index { 3 } else { decimals(grid) };
+            let other = extent[axis][1 - side];
+            let to = rounded(to, decimals);
+            if (to < other) == (side == 0) && to != other {
+                let key = KeyPath::from("clip").item(i).name("box").item(axis).item(side);
+                session.set(&key, number(to));
+            }
+        }
+    }
+    is_taken
+}
+
+/// Adds the box of the volume.
+fn add_box(session: &mut Session, index: usize, grid: &Grid) {
+    let corners = grid.world_corners();
+    let ends = [corners.into_iter().fold(DVec3::MAX, DVec3::min), corners.into_iter().fold(DVec3::MIN, DVec3::max)];
+    let range = |axis: usize| ends.iter().map(|end| number(rounded(end[axis], decimals(grid)))).collect::<Array>();
+    let table = InlineTable::from_iter([("box", Value::from([0, 1, 2].map(range).into_iter().collect::<Array>()))]);
+    session.edit("add a clip box", vec![Edit::Insert("clip".into(), index, table)]);
 }

@@ -257,7 +257,7 @@ fn round_at(at: f64, span: f64) -> f64 {
 }
 
 /// A node as the scene writes it.
-fn table(node: &Node, kind: TransferKind) -> InlineTable {
+pub(super) fn table(node: &Node, kind: TransferKind) -> InlineTable {
     let look = match (&node.color, kind) {
         (NodeColor::Style(name), _) => ("style", Value::from(name.as_str())),
         (NodeColor::Color(linear), _) => {

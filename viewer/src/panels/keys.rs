@@ -48,7 +48,8 @@ impl Panel for KeysPanel {
 }
 
 /// The keys that are shown.
-struct Filter {
+#[derive(Default)]
+pub(super) struct Filter {
     search: String,
     only_given: bool,
 }
@@ -66,7 +67,7 @@ impl Filter {
 }
 
 /// Shows a key: a line with an editor, a table with its keys, or a list with its items.
-fn tree(ui: &mut Ui, session: &mut Session, node: &Node, path: &KeyPath, filter: &Filter) {
+pub(super) fn tree(ui: &mut Ui, session: &mut Session, node: &Node, path: &KeyPath, filter: &Filter) {
     if !filter.shows(node, path, session) {
         return;
     }

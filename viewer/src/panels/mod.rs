@@ -5,7 +5,10 @@
 mod clip;
 mod compare;
 mod functions;
+mod handle;
 pub mod keys;
+mod objects;
+mod paint;
 mod slices;
 
 use crate::session::Session;
@@ -45,6 +48,13 @@ impl PictureArea {
         [f64::from(share.x) * self.size[0] as f64, f64::from(share.y) * self.size[1] as f64]
     }
 
+    /// Returns the pixel of the scene's picture at a place in the window: column and row. None beside the picture.
+    pub fn pixel_at(&self, at: eframe::egui::Pos2) -> Option<[usize; 2]> {
+        let pixel = self.pixel(at);
+        let inside = |axis: usize| (pixel[axis] as usize).min(self.size[axis].saturating_sub(1));
+        self.rect.contains(at).then(|| [0, 1].map(inside))
+    }
+
     /// Returns the place in the window of a point of the picture in the scene's pixels.
     pub fn place(&self, [x, y]: [f64; 2]) -> eframe::egui::Pos2 {
         let share = [x / self.size[0] as f64, y / self.size[1] as f64].map(|share| share as f32);
@@ -62,6 +72,7 @@ pub fn all() -> Vec<Box<dyn Panel>> {
     vec![
         Box::new(functions::FunctionsPanel::default()),
         Box::new(clip::ClipPanel),
+        Box::new(objects::ObjectsPanel::default()),
         Box::new(slices::SlicesPanel::default()),
         Box::new(keys::KeysPanel::default()),
         Box::new(compare::ComparePanel::default()),

@@ -1,6 +1,7 @@
 //! The window on software Vulkan: what a user does, and what the document and the picture are afterwards.
 
 mod compare;
+mod objects;
 mod places;
 
 use drypoint::gpu::{Gpu, wgpu};
