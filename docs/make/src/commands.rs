@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 /// Pages whose commands are run.
-const PAGES: [&str; 7] = [
+const PAGES: [&str; 9] = [
     "../README.md",
     "gallery.md",
     "tutorials/first-picture.md",
@@ -14,6 +14,8 @@ const PAGES: [&str; 7] = [
     "tutorials/halos.md",
     "tutorials/a-textbook-figure.md",
     "tutorials/a-style-from-a-picture.md",
+    "tutorials/lift-ghost-and-cut.md",
+    "tutorials/a-hatched-head.md",
 ];
 
 /// Files that a reader has: their name on the pages, and a file of the data or of the repository in their place.
@@ -35,10 +37,12 @@ const NOT_RUN: [&str; 6] = [
 ];
 
 /// Pictures of the docs that commands of a page write: the page, the file, and its place in `docs`.
-const PICTURES: [(&str, &str, &str); 3] = [
+const PICTURES: [(&str, &str, &str); 5] = [
     ("tutorials/first-picture.md", "four.png", "pictures/first-picture.png"),
     ("tutorials/halos.md", "four.png", "pictures/volumetric_halos/tutorial.png"),
     ("tutorials/a-textbook-figure.md", "page.png", "pictures/volumeshop/tutorial.png"),
+    ("tutorials/lift-ghost-and-cut.md", "four.png", "pictures/volumeshop/tutorial-kidney.png"),
+    ("tutorials/a-hatched-head.md", "four.png", "pictures/interactive_volume_illustration/tutorial.png"),
 ];
 
 /// Runs every command of the pages, prints its time, and keeps the pictures that pages show. Words after the command
