@@ -72,28 +72,3 @@ fn keys(document: &Document) -> Vec<(String, Value)> {
 fn file(document: &Document) -> PathBuf {
     std::path::absolute(document.path()).unwrap_or_else(|_| document.path().into())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HEAD: &str = "drypoint = 1\n[volume]\nphantom.name = \"torus\"\n[camera] # mine\n";
-
-    #[test]
-    fn a_view_is_taken_back_key_by_key_and_kept_as_text() {
-        let first = format!("{HEAD}eye = [1, 2, 3] # near\nfov = 20\n");
-        let mut document = Document::untitled(first.clone(), "ring.toml".into());
-        let view = SavedView::of(&document, "near");
-        let view = SavedView::read(&view.written().into()).unwrap();
-        assert!(view.is_of(&document) && view.replaces(&SavedView::of(&document, "near")));
-        assert!(!view.replaces(&SavedView::of(&document, "far")));
-        document.set(&"camera.eye".into(), Value::from_iter([4, 5, 6])).unwrap();
-        document.set(&"camera.up".into(), Value::from_iter([0, 1, 0])).unwrap();
-        document.remove(&"camera.fov".into()).unwrap();
-        let edits = view.edits(&document);
-        document.apply("back", edits).unwrap();
-        assert_eq!(document.text(), first);
-        let other = Document::untitled(first, "other.toml".into());
-        assert!(!view.is_of(&other));
-    }
-}
