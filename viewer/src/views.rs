@@ -18,11 +18,7 @@ pub struct SavedView {
 impl SavedView {
     /// The camera of a document as a view.
     pub fn of(document: &Document, name: &str) -> Self {
-        let clean = |mut value: Value| {
-            value.decor_mut().clear();
-            value
-        };
-        let camera = keys(document).into_iter().map(|(key, value)| (key, clean(value))).collect();
+        let camera = keys(document).into_iter().collect();
         Self { scene: file(document), name: name.into(), camera }
     }
 
@@ -41,7 +37,7 @@ impl SavedView {
         let key = |name: &str| KeyPath::from("camera").name(name);
         let others = keys(document).into_iter().filter(|(name, _)| !self.camera.contains_key(name));
         let removed = others.map(|(name, _)| Edit::Remove(key(&name)));
-        removed.chain(self.camera.iter().map(|(name, value)| Edit::Set(key(name), value.clone()))).collect()
+        removed.chain(self.camera.iter().map(|(name, value)| Edit::Set(key(name), bare(value)))).collect()
     }
 
     /// The view as the state keeps it.
@@ -64,8 +60,15 @@ impl SavedView {
 /// The keys of a document's camera.
 fn keys(document: &Document) -> Vec<(String, Value)> {
     let camera = document.get(&"camera".into()).and_then(Item::as_table_like);
-    let value = |(key, item): (&str, &Item)| Some((key.to_owned(), item.as_value()?.clone()));
+    let value = |(key, item): (&str, &Item)| Some((key.to_owned(), bare(item.as_value()?)));
     camera.into_iter().flat_map(|camera| camera.iter().filter_map(value)).collect()
+}
+
+/// A value without the space and the comment around it.
+fn bare(value: &Value) -> Value {
+    let mut value = value.clone();
+    value.decor_mut().clear();
+    value
 }
 
 /// The absolute path of a document.
