@@ -95,6 +95,10 @@ impl PaintTool {
         session: &mut Session,
         object: usize,
     ) -> bool {
+        if !session.is_painting {
+            // The document may be another one by now.
+            self.asked = self.asked.map(|_| false);
+        }
         self.take(session, object);
         session.is_stroke_open = false;
         if !session.is_painting {
