@@ -18,11 +18,7 @@ pub struct SavedView {
 impl SavedView {
     /// The camera of a document as a view.
     pub fn of(document: &Document, name: &str) -> Self {
-        let clean = |mut value: Value| {
-            value.decor_mut().clear();
-            value
-        };
-        let camera = keys(document).into_iter().map(|(key, value)| (key, clean(value))).collect();
+        let camera = keys(document).into_iter().collect();
         Self { scene: file(document), name: name.into(), camera }
     }
 
@@ -41,7 +37,7 @@ impl SavedView {
         let key = |name: &str| KeyPath::from("camera").name(name);
         let others = keys(document).into_iter().filter(|(name, _)| !self.camera.contains_key(name));
         let removed = others.map(|(name, _)| Edit::Remove(key(&name)));
-        removed.chain(self.camera.iter().map(|(name, value)| Edit::Set(key(name), value.clone()))).collect()
+        removed.chain(self.camera.iter().map(|(name, value)| Edit::Set(key(name), bare(value)))).collect()
     }
 
     /// The view as the state keeps it.
@@ -64,36 +60,18 @@ impl SavedView {
 /// The keys of a document's camera.
 fn keys(document: &Document) -> Vec<(String, Value)> {
     let camera = document.get(&"camera".into()).and_then(Item::as_table_like);
-    let value = |(key, item): (&str, &Item)| Some((key.to_owned(), item.as_value()?.clone()));
+    let value = |(key, item): (&str, &Item)| Some((key.to_owned(), bare(item.as_value()?)));
     camera.into_iter().flat_map(|camera| camera.iter().filter_map(value)).collect()
+}
+
+/// A value without the space and the comment around it.
+fn bare(value: &Value) -> Value {
+    let mut value = value.clone();
+    value.decor_mut().clear();
+    value
 }
 
 /// The absolute path of a document.
 fn file(document: &Document) -> PathBuf {
     std::path::absolute(document.path()).unwrap_or_else(|_| document.path().into())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HEAD: &str = "drypoint = 1\n[volume]\nphantom.name = \"torus\"\n[camera] # mine\n";
-
-    #[test]
-    fn a_view_is_taken_back_key_by_key_and_kept_as_text() {
-        let first = format!("{HEAD}eye = [1, 2, 3] # near\nfov = 20\n");
-        let mut document = Document::untitled(first.clone(), "ring.toml".into());
-        let view = SavedView::of(&document, "near");
-        let view = SavedView::read(&view.written().into()).unwrap();
-        assert!(view.is_of(&document) && view.replaces(&SavedView::of(&document, "near")));
-        assert!(!view.replaces(&SavedView::of(&document, "far")));
-        document.set(&"camera.eye".into(), Value::from_iter([4, 5, 6])).unwrap();
-        document.set(&"camera.up".into(), Value::from_iter([0, 1, 0])).unwrap();
-        document.remove(&"camera.fov".into()).unwrap();
-        let edits = view.edits(&document);
-        document.apply("back", edits).unwrap();
-        assert_eq!(document.text(), first);
-        let other = Document::untitled(first, "other.toml".into());
-        assert!(!view.is_of(&other));
-    }
 }

@@ -2,6 +2,8 @@
 
 use drypoint_viewer::document::{Document, Edit};
 use drypoint_viewer::key::KeyPath;
+use drypoint_viewer::state::State;
+use drypoint_viewer::views::SavedView;
 use std::time::{Duration, SystemTime};
 use toml_edit::{InlineTable, Value};
 
@@ -155,4 +157,24 @@ fn a_scene_that_is_saved_elsewhere_finds_its_volume() {
     assert_eq!(std::path::Path::new(named), folder.path().join("head.nrrd"));
     assert!(document.save_as(&folder.path().join("none/head.toml")).is_err());
     assert_eq!(document.path(), folder.path().join("scenes/head.toml"));
+}
+
+/// A saved view is read back from the window's state, and gives the camera back key by key with the comments beside it.
+#[test]
+fn a_saved_view_is_taken_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state = State::read(Some(folder.path().into()));
+    let first = format!("{TEXT}\n[camera] # mine\neye = [1, 2, 3] # near\nfov = 20\n");
+    let mut document = Document::untitled(first.clone(), "ring.toml".into());
+    state.views.push(SavedView::of(&document, "near"));
+    state.write();
+    let view = State::read(Some(folder.path().into())).views.remove(0);
+    assert!(view.name == "near" && view.is_of(&document) && view.replaces(&state.views[0]));
+    assert!(!view.replaces(&SavedView::of(&document, "far")));
+    assert!(!view.is_of(&Document::untitled(first.clone(), "other.toml".into())));
+    document.set(&key("camera.eye"), Value::from_iter([4, 5, 6])).unwrap();
+    document.set(&key("camera.up"), Value::from_iter([0, 1, 0])).unwrap();
+    document.remove(&key("camera.fov")).unwrap();
+    document.apply("take a saved view", view.edits(&document)).unwrap();
+    assert_eq!(document.text(), first);
 }

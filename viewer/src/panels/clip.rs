@@ -18,7 +18,7 @@ pub(super) struct ClipPanel;
 
 impl Panel for ClipPanel {
     fn title(&self) -> &'static str {
-        "Clip planes"
+        "Cuts"
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {

@@ -36,6 +36,8 @@ pub(super) struct PaintTool {
     waiting: Vec<[usize; 2]>,
     /// The pointer's pixel that was asked last, and the scene's serial number.
     hovered: Option<(u64, [usize; 2])>,
+    /// Whether the drag that goes on is the brush's; none while the button is up.
+    is_dragged: Option<bool>,
     /// The place in the window of the last dab, while the button is down.
     last: Option<Pos2>,
     /// The places in the window of dabs that the picture does not show yet.
@@ -56,6 +58,7 @@ impl Default for PaintTool {
             asked: None,
             waiting: Vec::new(),
             hovered: None,
+            is_dragged: None,
             last: None,
             trail: Vec::new(),
             strokes: 0,
@@ -92,6 +95,10 @@ impl PaintTool {
         session: &mut Session,
         object: usize,
     ) -> bool {
+        if !session.is_painting {
+            // The document may be another one by now.
+            self.asked = self.asked.map(|_| false);
+        }
         self.take(session, object);
         session.is_stroke_open = false;
         if !session.is_painting {
@@ -108,9 +115,13 @@ impl PaintTool {
         let pixels = self.radius * data.volume.grid().voxel() / (pose.view.pixel * depth);
         let radius = (pixels / picture.scale()) as f32;
         let (modifiers, is_down) = ui.input(|input| (input.modifiers, input.pointer.primary_down()));
-        let is_brush = !modifiers.command && !modifiers.shift;
         let response = &picture.response;
-        match response.interact_pointer_pos().filter(|_| is_brush && is_down && response.is_pointer_button_down_on()) {
+        let at = response.interact_pointer_pos().filter(|_| is_down && response.is_pointer_button_down_on());
+        // A drag stays what it was when the button was pressed.
+        let is_free = !modifiers.command && !modifiers.shift;
+        self.is_dragged = at.map(|_| self.is_dragged.unwrap_or(is_free));
+        let is_brush = self.is_dragged.unwrap_or(is_free);
+        match at.filter(|_| is_brush) {
             Some(at) => self.drag(picture, at, radius),
             None => self.last = None,
         }

@@ -266,7 +266,7 @@ fn the_palette_runs_commands_by_their_words() {
     press(&mut window, Key::Enter, Modifiers::NONE);
     settle(&mut window);
     assert!((viewer(&window).session.pose().unwrap().view.forward.z + 1.0).abs() < 1e-5);
-    for label in ["Function", "Clip planes", "All keys", "File", "Edit", "View"] {
+    for label in ["Function", "Cuts", "All keys", "File", "Edit", "View"] {
         assert!(window.query_by_label(label).is_some(), "{label}");
     }
 }
@@ -292,7 +292,7 @@ fn every_key_can_be_found_and_edited() {
 #[test]
 fn a_clip_plane_is_moved_by_its_handle() {
     let Some(mut window) = window(SCENE, Backend::Card) else { return };
-    window.get_by_label("Clip planes").click();
+    window.get_by_label("Cuts").click();
     window.run_steps(2);
     window.get_by_label("z").click();
     settle(&mut window);

@@ -132,7 +132,7 @@ fn an_object_is_moved_by_its_handle() {
 /// A box that cuts is added as large as the volume, and a handle moves one of its sides.
 #[test]
 fn a_side_of_a_clip_box_is_moved_by_its_handle() {
-    let Some(mut window) = open(SCENE, "Clip planes") else { return };
+    let Some(mut window) = open(SCENE, "Cuts") else { return };
     let first = pixels(&window);
     window.get_by_label("or a box").click();
     settle(&mut window);
