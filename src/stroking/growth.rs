@@ -5,7 +5,7 @@ use crate::Failure;
 use drypoint_reference::interactive_volume_illustration as room;
 use drypoint_scene::space::Grid;
 use drypoint_scene::tables::{
-    DirectionRule, DirectionSource, Family, Hatching as Table, Interpolate, LineLighting, Reference, Scene, StoredAt,
+    DirectionRule, Family, Hatching as Table, Interpolate, LineLighting, Reference, Scene, StoredAt,
 };
 
 /// Least `chord`, in voxels. The number of a stroke's vertices grows with 1/√chord, and a default stroke has some 600
@@ -59,13 +59,14 @@ pub(super) fn growth_settings(scene: &Scene, table: &Table, grid: &Grid) -> Resu
                 agree: directions.agree,
             }),
         },
-        stored: (directions.from == DirectionSource::Stored).then_some(room::DirectionStorage {
+        stored: directions.is_stored().then_some(room::DirectionStorage {
             between: match directions.interpolate {
                 Interpolate::Tensor => room::DirectionInterpolation::Tensor,
                 Interpolate::Flipped => room::DirectionInterpolation::Flipped,
             },
             all: directions.grid == StoredAt::All,
         }),
+        smooth: length(directions.smooth, "directions.smooth")?,
         reference: match directions.reference {
             Reference::Cylindrical => room::ReferenceField::Cylindrical { axis, center },
             Reference::Axial => room::ReferenceField::Axial { axis },

@@ -191,7 +191,7 @@ impl<'a> HatchingSetup<'a> {
     /// Finds the seeds, and grows their strokes if no camera decides which grow.
     pub(super) fn grow(&'a self, field: &'a Field<'_, f64>, counts: &mut Counts) -> room::GrownHatching<'a> {
         let (pyramid, strokes) = self.hatching.strokes(field, counts);
-        let pyramid = self.hatching.prepared(pyramid, &strokes, counts);
+        let pyramid = self.hatching.prepared(pyramid, &strokes, field, counts);
         let seeds = self.seeds_of(&pyramid, &strokes, field, counts);
         let start = Instant::now();
         let grown = self.hatching.grow(&seeds, strokes, field, counts);

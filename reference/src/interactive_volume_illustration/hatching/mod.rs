@@ -100,8 +100,19 @@ impl Hatching<'_> {
     }
 
     /// Computes the directions that are stored in advance, and gives the pyramid the curvatures that seeds follow.
-    pub fn prepared(&self, pyramid: Pyramid, strokes: &StrokeGrower<'_, '_>, counts: &mut Counts) -> Pyramid {
+    pub fn prepared(
+        &self,
+        pyramid: Pyramid,
+        strokes: &StrokeGrower<'_, '_>,
+        field: &Field<'_, f64>,
+        counts: &mut Counts,
+    ) -> Pyramid {
         strokes.prepare();
+        if let Some(iso) = self.iso.filter(|_| self.growth.smooth > 0.0) {
+            let surface = strokes.seeds(&pyramid, field, iso, SeedRule::Dense, (self.measure, [0.0; 2]));
+            let cells: Vec<_> = surface.cells.into_iter().map(|(cell, _)| cell).collect();
+            strokes.smooth(&cells);
+        }
         let pyramid = match self.seeds {
             SeedRule::Curvature { .. } => strokes.with_curvature(pyramid, self.measure),
             SeedRule::Dense => pyramid,

@@ -117,6 +117,8 @@ pub struct HatchParams {
     pub rule: DirectionEstimator,
     /// The storage of directions. None computes them at every query.
     pub stored: Option<DirectionStorage>,
+    /// The length over which stored directions are smoothed along the surface; 0 leaves them.
+    pub smooth: f64,
     /// The reference field for the sense of the strokes.
     pub reference: ReferenceField,
     /// The random variation of `length`, as a share.
@@ -140,6 +142,7 @@ impl HatchParams {
             family: CurvatureFamily::Larger,
             rule: DirectionEstimator::Scaled(Default::default()),
             stored: None,
+            smooth: 0.0,
             reference: ReferenceField::cylindrical(grid),
             jitter: 0.0,
             seed: 1,
@@ -223,6 +226,13 @@ impl<'f, 'v> StrokeGrower<'f, 'v> {
     pub fn prepare(&self) {
         if let Some(stored) = self.stored.as_ref().filter(|_| self.is_prepared()) {
             stored.fill(&self.source());
+        }
+    }
+
+    /// Stores the directions around the surface of some cells, smoothed along it.
+    pub(in super::super) fn smooth(&self, cells: &[[usize; 3]]) {
+        if let Some(stored) = &self.stored {
+            stored.smooth(&self.source(), cells, self.how.smooth);
         }
     }
 

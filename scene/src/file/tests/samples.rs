@@ -367,6 +367,7 @@ pub(super) const SAMPLES: &[Sample] = &[
     ("hatching.directions.from", &[HATCHING], "stored"),
     ("hatching.directions.interpolate", &[HATCHING], "flipped"),
     ("hatching.directions.grid", &[HATCHING], "all"),
+    ("hatching.directions.smooth", &[HATCHING], "4 voxels"),
     ("hatching.directions.reference", &[HATCHING], "axial"),
     ("hatching.directions.axis", &[HATCHING], "[1, 0, 0]"),
     ("hatching.directions.center", &[HATCHING], "[1, 2, 3]"),

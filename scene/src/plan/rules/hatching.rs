@@ -3,8 +3,8 @@
 use super::{Asks, Idle, Ladder, Pass, Rules, Settings};
 use crate::plan::Plan;
 use crate::tables::{
-    DirectionRule, DirectionSource, GradientRange, HatchIso, HatchStyle, Hatching, Hidden, Iso, LineLighting, Scene,
-    SeedsBy, Spacing, StoredAt,
+    DirectionRule, GradientRange, HatchIso, HatchStyle, Hatching, Hidden, Iso, LineLighting, Scene, SeedsBy, Spacing,
+    StoredAt,
 };
 
 /// The rules of `[hatching]`.
@@ -103,13 +103,14 @@ fn asks(scene: &Scene, asks: &mut Asks) {
             asks.pass(Pass::GradientRange, "seeds by curvature", "hatching.seeds");
         }
     }
-    match (hatching.directions.from, hatching.directions.grid) {
-        (DirectionSource::Hessian, _) => {}
-        (DirectionSource::Stored, StoredAt::Visited) => {
-            asks.pass(Pass::StoredDirections, "stored directions", "hatching.directions.from");
-        }
-        (DirectionSource::Stored, StoredAt::All) => {
-            asks.pass(Pass::AllDirections, "stored directions", "hatching.directions.grid");
+    let directions = &hatching.directions;
+    if directions.is_stored() {
+        let key = if directions.smooths() { "smooth" } else { "from" };
+        match directions.grid {
+            StoredAt::Visited => {
+                asks.pass(Pass::StoredDirections, "stored directions", &format!("hatching.directions.{key}"));
+            }
+            StoredAt::All => asks.pass(Pass::AllDirections, "stored directions", "hatching.directions.grid"),
         }
     }
     asks.pass(Pass::Strokes, "hatching", "hatching.length");
@@ -185,7 +186,10 @@ fn idle(scene: &Scene, plan: &Plan, idle: &mut Idle) {
             idle.key(&format!("hatching.{key}"), "every cell has a seed");
         }
     }
-    if hatching.directions.from == DirectionSource::Hessian {
+    if hatching.iso == HatchIso::Transfer && hatching.directions.smooths() {
+        idle.key("hatching.directions.smooth", "there is no one surface along which directions could agree");
+    }
+    if !hatching.directions.is_stored() {
         for key in ["interpolate", "grid"] {
             idle.key(&format!("hatching.directions.{key}"), "no direction is stored");
         }

@@ -1,8 +1,10 @@
 //! `[hatching.directions]`: where a stroke's direction comes from ([HATCH-3], [HATCH-4]).
 
+use super::table::NOT_NEGATIVE;
 use crate::document::declare::{choices, table};
 use crate::document::describe::Table;
 use crate::document::kind::{Bounds, Number, Numbers, Rule};
+use crate::length::Length;
 use glam::DVec3;
 
 table! {
@@ -17,6 +19,11 @@ table! {
         interpolate: Interpolate = Interpolate::Tensor, key("HATCH-4", Interpolate::KIND);
         /// At which voxels directions are stored.
         grid: StoredAt = StoredAt::Visited, key("HATCH-5", StoredAt::KIND);
+        /// How far directions are smoothed along a surface, so that neighbours agree: where the data are not sure of
+        /// a direction, those around it decide. Directions are stored then. 0: not at all.
+        ///
+        /// In the world.
+        smooth: Length = Length::World(0.0), key("HATCH-3", NOT_NEGATIVE);
         /// Which way strokes run, so that neighbours taper alike.
         reference: Reference = Reference::Cylindrical, key("HATCH-4", Reference::KIND);
         /// Axis of the reference, in world space.
@@ -40,6 +47,18 @@ table! {
         ///
         /// In degrees.
         agree: f64 = 20.0, key("HATCH-3", Number { bounds: Bounds::between(0.0, 90.0), unit: ", in degrees" });
+    }
+}
+
+impl Directions {
+    /// Whether directions are smoothed along the surface.
+    pub fn smooths(&self) -> bool {
+        self.smooth.of_voxel(1.0).is_some_and(|length| length > 0.0)
+    }
+
+    /// Whether directions are stored at voxels.
+    pub fn is_stored(&self) -> bool {
+        self.from == DirectionSource::Stored || self.smooths()
     }
 }
 

@@ -185,7 +185,7 @@ const ANGLE: Number = Number { bounds: Bounds::between(0.0, 180.0), unit: ", in 
 const TURN: Number = Number { bounds: Bounds { lo: End::Out(0.0), hi: End::In(180.0) }, unit: ", in degrees" };
 const SHARE: Number = Number { bounds: Bounds::UNIT, unit: "" };
 const PAGE_LENGTH: Lengths = Lengths { on: On::Page, bounds: Bounds::POSITIVE };
-const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
+pub(super) const NOT_NEGATIVE: Lengths = Lengths { on: On::World, bounds: Bounds::NOT_NEGATIVE };
 
 /// A value of the volume, or what is in place of one.
 struct HatchIsoKind;

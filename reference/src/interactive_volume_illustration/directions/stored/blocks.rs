@@ -149,6 +149,13 @@ impl DirectionBlocks {
         Some(Curvature { k1: first.number(3), k2: second.number(3), e1, e2 })
     }
 
+    /// Stores both lines of a voxel.
+    pub(super) fn set(&self, voxel: [usize; 3], made: Option<Curvature<f64>>) {
+        if let Some(pair) = self.pair(voxel) {
+            pair.set(made);
+        }
+    }
+
     /// Reads the first or second lines of the corners of a cell whose bits are set. Returns a bit for each corner
     /// that has a line. All corners are requested from memory before any is used.
     #[inline]

@@ -5,6 +5,7 @@
 
 mod blocks;
 mod mean;
+mod smoothing;
 
 use super::super::strokes::StrokeField;
 use super::super::{CurvatureFamily, DirectionCounts, NoDirection};
@@ -15,6 +16,7 @@ pub(super) use blocks::VoxelBox;
 use blocks::{CORNERS, DirectionBlocks};
 use drypoint_scene::glam::DVec3;
 use mean::LineMean;
+use smoothing::SurfaceLines;
 
 /// Interpolation of stored directions between voxels ([HATCH-4]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,6 +92,23 @@ impl StoredDirections {
     /// Computes the directions of all voxels, in parallel.
     pub(in super::super) fn fill(&self, source: &DirectionInputs<'_, '_, '_>) {
         self.blocks.fill(|voxels| source.directions.of_voxels(source.ground, voxels));
+    }
+
+    /// Stores directions of the voxels around the surface of some cells, smoothed along it over a length in world units.
+    /// Voxels with a direction keep their curvatures; the others get those of the neighbours that decide.
+    pub(in super::super) fn smooth(&self, source: &DirectionInputs<'_, '_, '_>, cells: &[[usize; 3]], length: f64) {
+        let axes = source.ground.grid().axes();
+        let mut lines = SurfaceLines::new(source.ground, cells, &|voxel| source.at(voxel));
+        lines.smooth(length, [0, 1, 2].map(|a| axes.col(a).length()));
+        for (voxel, curvatures, directions) in lines.each() {
+            self.blocks.set(
+                voxel,
+                curvatures.zip(directions).map(|([k1, k2], [e1, e2])| {
+                    let [e1, e2] = [e1, e2].map(Vec3::from_glam);
+                    Curvature { k1, k2, e1, e2 }
+                }),
+            );
+        }
     }
 
     /// Like [`fill`](Self::fill), with random signs.
