@@ -240,3 +240,87 @@ fn a_plane_has_no_direction_between_its_voxels() {
     assert_eq!(strokes.curvature(index, &mut counts), Err(NoDirection::Umbilic));
     assert_eq!((counts.missing, counts.between, strokes.stored()[0]), (1, 0, 0));
 }
+
+/// Cells of the surface of a ground where its value is 0.
+fn surface_cells(ground: &dyn StrokeField) -> Vec<[usize; 3]> {
+    let [nx, ny, nz] = ground.grid().dims();
+    let value = |voxel: [usize; 3]| ground.value(Vec3::from_glam(DVec3::from_array(voxel.map(|i| i as f64))));
+    let cells = (0..nz - 1).flat_map(|z| (0..ny - 1).flat_map(move |y| (0..nx - 1).map(move |x| [x, y, z])));
+    let crossed = |&[x, y, z]: &[usize; 3]| {
+        let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| value([x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)]));
+        corners.iter().any(|&c| c > 0.0) && corners.iter().any(|&c| c < 0.0)
+    };
+    cells.filter(crossed).collect()
+}
+
+/// The root mean square angle in degrees between e₁ at the voxels of a surface's cells and the true direction, and the
+/// number of voxels without one.
+fn off_at_voxels(strokes: &StrokeGrower<'_, '_>, cells: &[[usize; 3]], truth: &dyn Fn(DVec3) -> DVec3) -> (f64, usize) {
+    let found = cells.iter().map(|&cell| strokes.at_voxel(cell).map(|c| (cell, c.e1.to_glam())));
+    let (mut sum, mut missing) = (0.0, 0);
+    for one in found {
+        match one {
+            Some((cell, e)) => {
+                let at = strokes.ground().grid().to_world(DVec3::from_array(cell.map(|i| i as f64)));
+                sum += e.cross(truth(at)).length().min(1.0).asin().powi(2);
+            }
+            None => missing += 1,
+        }
+    }
+    ((sum / (cells.len() - missing) as f64).sqrt().to_degrees(), missing)
+}
+
+/// Smoothing averages the noise of directions away: a cylinder whose Hessian has an error of twice its curvature.
+#[test]
+fn smoothed_directions_of_a_noisy_cylinder_agree() {
+    let grid = Grid::with_spacing([40, 40, 30], [1.0, 1.0, 1.5]).unwrap();
+    let (centre, radius) = (grid.centre(), 12.0);
+    let at = move |x: DVec3| {
+        let out = DVec3::new(x.x - centre.x, x.y - centre.y, 0.0);
+        let (rho, n) = (out.length(), out.normalize_or(DVec3::X));
+        let t = DVec3::Z.cross(n);
+        // A random symmetric matrix in the tangent plane of each place.
+        let random = |draw: u32| 2.0 * uniform(8, x.to_array().map(|c| (4.0 * c) as u32), draw) - 1.0;
+        let outer = |a: DVec3, b: DVec3| DMat3::from_cols(a * b.x, a * b.y, a * b.z);
+        let noise = (outer(t, t) * random(0)
+            + outer(DVec3::Z, DVec3::Z) * random(1)
+            + (outer(t, DVec3::Z) + outer(DVec3::Z, t)) * random(2))
+            * (2.0 / radius);
+        (radius - rho, -n, outer(t, t) * (-1.0 / rho.max(1.0)) + noise)
+    };
+    let ground = Formula { grid, range: [-20.0, 20.0], at };
+    let cells = surface_cells(&ground);
+    let off = |smooth: f64| {
+        let how = HatchParams { smooth, ..raw(&ground.grid, TENSOR) };
+        let strokes = StrokeGrower::on(&ground, Some(0.0), how);
+        if smooth > 0.0 {
+            strokes.smooth(&cells);
+        }
+        // Far from the ends, where there are neighbours on both sides.
+        let inner: Vec<_> = cells.iter().copied().filter(|cell| (8..22).contains(&cell[2])).collect();
+        // Bright inside, κ₁ = 1/ρ runs around the axis.
+        off_at_voxels(&strokes, &inner, &|x| DVec3::Z.cross(x - centre).normalize())
+    };
+    let [(before, _), (after, missing)] = [off(0.0), off(4.0)];
+    assert!(before > 30.0 && after < 5.0 && missing == 0, "{before} {after} {missing}");
+}
+
+/// The lines of a torus are those of its symmetries, so that a mean over a length keeps them, but for the grid.
+#[test]
+fn smoothed_directions_of_a_torus_stay() {
+    let grid = Grid::with_spacing([40, 40, 24], [1.0; 3]).unwrap();
+    let ground = exact("torus", grid, &[("R", 11.0), ("r", 6.0)]);
+    let cells = surface_cells(&ground);
+    let how = HatchParams { smooth: 2.0, ..raw(&ground.grid, TENSOR) };
+    let strokes = StrokeGrower::on(&ground, Some(0.0), how);
+    strokes.smooth(&cells);
+    let centre = ground.grid.centre();
+    // Bright inside, κ₁ = 1/r runs around the tube: in the plane through the axis, across the tube's radius.
+    let around = |x: DVec3| {
+        let out = (x - centre).with_z(0.0).normalize();
+        let radius = x - centre - 11.0 * out;
+        radius.cross(DVec3::Z.cross(out)).normalize()
+    };
+    let (off, missing) = off_at_voxels(&strokes, &cells, &around);
+    assert!(off < 3.0 && missing == 0, "{off} {missing}");
+}

@@ -95,7 +95,7 @@ impl StoredDirections {
     }
 
     /// Stores directions of the voxels around the surface of some cells, smoothed along it over a length in world units.
-    /// Voxels with a direction keep their curvatures; the others get those of the neighbours that decide.
+    /// Curvatures are means of those around, by how sure they are.
     pub(in super::super) fn smooth(&self, source: &DirectionInputs<'_, '_, '_>, cells: &[[usize; 3]], length: f64) {
         let axes = source.ground.grid().axes();
         let mut lines = SurfaceLines::new(source.ground, cells, &|voxel| source.at(voxel));

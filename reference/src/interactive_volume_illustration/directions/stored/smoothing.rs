@@ -76,7 +76,7 @@ impl SurfaceLines {
         }
     }
 
-    /// The voxels with their curvatures. Those with curvatures of their own keep them, and get new directions.
+    /// The voxels with κ₁ and κ₂, means by s, and both directions.
     pub(super) fn each(&self) -> impl Iterator<Item = ([usize; 3], Option<[f64; 2]>, Option<[DVec3; 2]>)> {
         let mean = |lines: &Lines| (lines[8] > 0.0).then(|| [lines[6] / lines[8], lines[7] / lines[8]]);
         let of = move |i: usize| (self.voxels[i], mean(&self.lines[i]), directions(&self.lines[i], self.normals[i]));
