@@ -74,6 +74,8 @@ pub struct VolumeData {
 /// A scene as a job completes it, and what it tells of it.
 #[derive(Clone, Debug)]
 pub struct Prepared {
+    /// The revision of the document that the job was made of.
+    pub revision: u64,
     /// The scene, with what was found in the data.
     pub scene: Arc<Scene>,
     /// Warnings.
@@ -171,7 +173,8 @@ impl Artist {
             .iter()
             .map(|object| job.corners(&job.scene.objects, &PartName::Ghost(object.name.clone())))
             .collect();
-        self.desk.answer(Answer::Prepared(Prepared { scene: Arc::new(job.scene.clone()), warnings, colors, boxes }));
+        let scene = Arc::new(job.scene.clone());
+        self.desk.answer(Answer::Prepared(Prepared { revision: request.revision, scene, warnings, colors, boxes }));
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {
@@ -273,28 +276,35 @@ impl Artist {
     }
 }
 
-/// Returns the size in which a scene is shown: its own, or a smaller one of the same shape. Lengths on a page keep theirs.
+/// Returns the size in which a scene is shown: its own, or a smaller one of the same shape. Scenes with lengths on a page or
+/// places at pixels keep theirs.
 pub fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
     let [width, height] = scene.picture.size;
     let own = width.max(height);
-    if own <= longest || scene.draws_on_page() {
+    if own <= longest || scene.draws_on_page() || picks(scene) {
         [width, height]
     } else {
         [width, height].map(|n| (n * longest).div_ceil(own))
     }
 }
 
+/// Whether something is found at a pixel of the picture: a focus of halos, or a stroke. Brushes at points of the world are
+/// not.
+fn picks(scene: &Scene) -> bool {
+    scene.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
+        || scene
+            .objects
+            .iter()
+            .flat_map(|object| object.strokes.iter().flatten())
+            .any(|stroke| matches!(stroke.target, PaintTarget::Pixel(_)))
+}
+
 /// Whether a scene differs from the one before it in the place and the direction of its camera alone, and nothing is found
 /// at a pixel.
 pub(crate) fn only_turns(before: &Scene, after: &Scene) -> bool {
-    let picks = before.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
-        || before.objects.iter().flat_map(|object| object.strokes.iter().flatten()).any(|stroke| {
-            // Brushes at points of the world stay there.
-            matches!(stroke.target, PaintTarget::Pixel(_))
-        });
     let Camera { projection, near, .. } = after.camera;
     let camera = Camera { projection, near, ..before.camera.clone() };
-    !picks && Scene { camera, ..after.clone() } == *before
+    !picks(before) && Scene { camera, ..after.clone() } == *before
 }
 
 /// Returns the shot of a job from another camera, with sides divided by `divisor`.

@@ -141,7 +141,7 @@ impl Session {
                     self.cross = self.cross.filter(|cross| is_inside(grid.to_index(*cross)));
                     self.data = Some(data);
                 }
-                Answer::Prepared(Prepared { scene, warnings, colors, boxes }) => {
+                Answer::Prepared(Prepared { scene, warnings, colors, boxes, .. }) => {
                     (self.prepared, self.warnings, self.colors) = (Some(scene), warnings, Some(colors));
                     self.boxes = boxes;
                 }

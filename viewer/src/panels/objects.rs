@@ -108,6 +108,7 @@ impl Panel for ObjectsPanel {
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
         let is_shown = std::mem::take(&mut self.is_shown);
         let Some(scene) = session.scene.clone() else { return false };
+        self.chosen = self.chosen.min(scene.objects.len());
         let object = scene.objects.get(self.chosen);
         if session.is_painting && object.is_some_and(|object| object.strokes.is_none() || object.volume.is_some()) {
             session.is_painting = false;
@@ -134,7 +135,7 @@ impl ObjectsPanel {
             let combo = ComboBox::from_id_salt("selected by").selected_text(text).width(130.0).show_ui(ui, |ui| {
                 for one in SELECTIONS
                     .into_iter()
-                    .filter(|(name, _)| *name != "selection" || given.is_some_and(|g| g.0 == *name))
+                    .filter(|one| !["selection", "strokes"].contains(&one.0) || given == Some(*one))
                 {
                     ui.selectable_value(&mut chosen, Some(one), one.1);
                 }
@@ -214,7 +215,7 @@ pub(super) fn new_object(session: &Session, index: usize) -> Vec<Edit> {
         object.insert("transfer", transfer.into());
     }
     let mut edits = vec![Edit::Insert("object".into(), index, object)];
-    if session.document.get(&"combine".into()).is_none() {
+    if index == 0 && session.document.get(&"combine".into()).is_none() {
         edits.push(Edit::set("combine.fuzzy", "product"));
     }
     edits
