@@ -65,6 +65,8 @@ pub struct Frame {
 /// The volume of a scene with its histogram.
 #[derive(Clone, Debug)]
 pub struct VolumeData {
+    /// The table that it was read for.
+    pub table: VolumeTable,
     /// The volume.
     pub volume: Arc<Volume>,
     /// Counts of its values.
@@ -126,7 +128,7 @@ struct Artist {
     card: Option<Presenter>,
     /// Frames on the card, which outlive the jobs that they were made from.
     on_card: Option<Box<GpuFrames>>,
-    data: Option<(VolumeTable, Arc<VolumeData>)>,
+    data: Option<Arc<VolumeData>>,
     pace: Pace,
 }
 
@@ -135,10 +137,9 @@ impl Artist {
         let mut next = self.desk.wait();
         while let Some(mut request) = next {
             request.scene.picture.size = shown_size(&request.scene, request.longest);
-            let revision = request.revision;
-            let served = self.job(&request.scene).and_then(|job| Ok(self.serve(&job, request)?));
+            let served = self.job(&request.scene).and_then(|job| Ok(self.serve(&job, &mut request)?));
             next = served.unwrap_or_else(|failures| {
-                self.desk.answer(Answer::Failed(revision, failures));
+                self.desk.answer(Answer::Failed(request.revision, failures));
                 self.desk.wait()
             });
         }
@@ -147,12 +148,12 @@ impl Artist {
     /// Makes the job of a scene. The volume is read only if `[volume]` has changed.
     fn job(&mut self, scene: &Scene) -> Result<Job, Failures> {
         let volume = match &self.data {
-            Some((table, data)) if *table == scene.volume => Arc::clone(&data.volume),
+            Some(data) if data.table == scene.volume => Arc::clone(&data.volume),
             _ => {
                 let volume = Arc::new(read_volume(scene, &Disk)?);
-                let data =
-                    Arc::new(VolumeData { histogram: Histogram::new(&volume, BINS), volume: Arc::clone(&volume) });
-                self.data = Some((scene.volume.clone(), Arc::clone(&data)));
+                let (table, histogram) = (scene.volume.clone(), Histogram::new(&volume, BINS));
+                let data = Arc::new(VolumeData { table, volume: Arc::clone(&volume), histogram });
+                self.data = Some(Arc::clone(&data));
                 self.desk.answer(Answer::Loaded(data));
                 volume
             }
@@ -160,12 +161,12 @@ impl Artist {
         Job::with_volume_for(scene.clone(), volume, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Draws a job, and the requests after it that only move its camera. Returns the next request; none if the window is
-    /// closed.
-    fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Option<Box<Request>>, Failure> {
+    /// Draws a job, and the requests after it that only move its camera. Each takes the place of the one before, so that
+    /// a failure is that of `request`. Returns the next request; none if the window is closed.
+    fn serve(&mut self, job: &Job, request: &mut Box<Request>) -> Result<Option<Box<Request>>, Failure> {
         let mut warnings: Vec<String> = job.plan.warnings.iter().map(ToString::to_string).collect();
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
-        let range = self.data.as_ref().map_or(job.volume.range(), |(_, data)| [data.histogram.lo, data.histogram.hi]);
+        let range = self.data.as_ref().map_or(job.volume.range(), |data| [data.histogram.lo, data.histogram.hi]);
         let colors = Arc::new(ValueColors::of(job, range));
         let boxes = job
             .scene
@@ -178,7 +179,7 @@ impl Artist {
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {
-            let next = match self.draw(job, &mut canvas, &request, is_turned)? {
+            let next = match self.draw(job, &mut canvas, request, is_turned)? {
                 Mail::Nothing => self.desk.wait(),
                 Mail::Request(newer) => Some(newer),
                 Mail::Closed => None,
@@ -191,7 +192,7 @@ impl Artist {
                 }
                 return Ok(Some(newer));
             }
-            (request, is_turned) = (newer, true);
+            (*request, is_turned) = (newer, true);
         }
     }
 
@@ -254,7 +255,7 @@ impl Artist {
     fn draw_page(&self, job: &Job, request: &Request, is_turned: bool) -> Result<(), Failure> {
         let start = Instant::now();
         let turned = is_turned.then(|| {
-            let volume = self.data.as_ref().map_or(&job.volume, |(_, data)| &data.volume);
+            let volume = self.data.as_ref().map_or(&job.volume, |data| &data.volume);
             Job::with_volume_for(request.scene.clone(), Arc::clone(volume), RenderTarget::Picture, Arc::new(Disk))
         });
         let turned = match turned.transpose() {

@@ -32,7 +32,7 @@ impl Viewer {
             Action::SaveAs => self.dialogs.save_as(session.document.path()),
             Action::Export => self.dialogs.export(session.document.path()),
             Action::Copy => session.image().into_iter().for_each(|image| ctx.copy_image(image)),
-            Action::FocusHalos => match (session.cross, &session.scene, &session.data) {
+            Action::FocusHalos => match (session.cross, &session.scene, session.data()) {
                 (Some(at), Some(scene), Some(data)) => {
                     let edits = focus(scene, data.volume.grid(), at);
                     session.edit("focus the halos", edits);
@@ -90,7 +90,7 @@ impl Viewer {
     }
 
     fn look_from(&mut self, side: Side) {
-        let anatomy = self.session.data.as_ref().and_then(|data| data.volume.anatomy());
+        let anatomy = self.session.data().and_then(|data| data.volume.anatomy());
         self.session.move_camera("look from a side", |pose| pose.look(side.directions(anatomy)));
     }
 

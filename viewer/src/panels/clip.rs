@@ -22,7 +22,7 @@ impl Panel for ClipPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {
-        let (Some(scene), Some(data)) = (session.scene.clone(), session.data.clone()) else {
+        let (Some(scene), Some(data)) = (session.scene.clone(), session.data().cloned()) else {
             ui.weak("The volume is being read.");
             return;
         };
@@ -64,7 +64,7 @@ impl Panel for ClipPanel {
     }
 
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
-        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data.clone(), session.pose())
+        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data().cloned(), session.pose())
         else {
             return false;
         };

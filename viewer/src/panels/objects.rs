@@ -156,7 +156,7 @@ impl ObjectsPanel {
     /// is on a handle.
     fn handles(&self, ui: &Ui, picture: &PictureArea, session: &mut Session, object: &ObjectTable) -> bool {
         let corners = session.boxes.get(self.chosen).copied().flatten();
-        let (Some(corners), Some(pose), Some(data)) = (corners, session.pose(), session.data.clone()) else {
+        let (Some(corners), Some(pose), Some(data)) = (corners, session.pose(), session.data().cloned()) else {
             return false;
         };
         let map = object.motion.map(corners.iter().sum::<DVec3>() / 8.0);
@@ -193,7 +193,7 @@ fn first(session: &Session, name: &str) -> Value {
     if name == "label" {
         return 1.into();
     }
-    let [lo, hi] = session.data.as_ref().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
+    let [lo, hi] = session.data().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
     let pair = |share: f64, membership: i64| {
         Value::Array(Array::from_iter([number(lo + (hi - lo) * share), membership.into()]))
     };

@@ -106,7 +106,7 @@ impl PaintTool {
             self.waiting.clear();
             return false;
         }
-        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data.clone(), session.pose())
+        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data().cloned(), session.pose())
         else {
             return false;
         };
@@ -201,7 +201,7 @@ impl PaintTool {
             Err(failures) => return session.notice = failures.to_string(),
         };
         self.depth = found.last().map(|picked| picked.depth).or(self.depth);
-        let Some(data) = session.data.clone().filter(|_| is_dabs && !found.is_empty()) else { return };
+        let Some(data) = session.data().cloned().filter(|_| is_dabs && !found.is_empty()) else { return };
         let strokes = KeyPath::from("object").item(object).name("strokes");
         let dab = |at| Edit::Insert(strokes.clone(), usize::MAX, self.dab(at, data.volume.grid()));
         let mut edits = match session.document.get(&KeyPath::from("object").item(object)) {
