@@ -124,6 +124,11 @@ impl Session {
         self.notice.clear();
     }
 
+    /// Returns a number that no other document of the session has.
+    pub(crate) fn document_number(&self) -> u64 {
+        self.first
+    }
+
     /// Returns the volume of the scene; none while it is read.
     pub fn data(&self) -> Option<&Arc<VolumeData>> {
         let scene = self.scene.as_ref()?;

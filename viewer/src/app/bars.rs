@@ -159,7 +159,7 @@ impl Viewer {
                     ui.label(format!("{} — {}", failure.place, failure.remedy));
                 }
                 if ui.button("Undo the last change").clicked() {
-                    self.session.document.undo();
+                    self.run(ui.ctx(), Action::Undo);
                 }
             });
         }

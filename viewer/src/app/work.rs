@@ -18,8 +18,12 @@ const TURN: f64 = std::f64::consts::PI / 36.0;
 const STEP: f64 = 1.1;
 
 impl Viewer {
-    /// Does the work of a command.
+    /// Does the work of a command, once no dab of a stroke is still to come: a stroke is undone and saved as a whole.
     pub fn run(&mut self, ctx: &Context, action: Action) {
+        if self.session.is_stroke_open {
+            self.deferred.push(action);
+            return;
+        }
         let session = &mut self.session;
         match action {
             Action::Open => self.dialogs.open(),

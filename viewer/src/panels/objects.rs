@@ -200,13 +200,17 @@ fn first(session: &Session, name: &str) -> Value {
     Value::Array(Array::from_iter([pair(0.5, 0), pair(0.625, 1)]))
 }
 
-/// Returns the edits that add an object to paint, with the picture's function in another colour or style. It has no stroke
-/// yet, so dabs must follow. A soft selection shares with the background what both are made of, unless the scene says how
-/// they are combined.
-pub(super) fn new_object(session: &Session, index: usize) -> Vec<Edit> {
-    let is_taken = |name: &String| session.scene.iter().any(|scene| scene.objects.iter().any(|o| o.name == *name));
+/// Returns a name that no object of a scene has.
+pub(super) fn new_name(scene: &tables::Scene) -> String {
     let names = (1..).map(|n| if n == 1 { "painted".to_owned() } else { format!("painted {n}") });
-    let name = names.into_iter().find(|name| !is_taken(name)).unwrap_or_default();
+    let mut free = names.filter(|name| scene.objects.iter().all(|object| object.name != *name));
+    free.next().unwrap_or_default()
+}
+
+/// Returns the edits that add an object to paint after all others, with the picture's function in another colour or style.
+/// It has no stroke yet, so dabs must follow. A soft selection shares with the background what both are made of, unless
+/// the scene says how they are combined.
+pub(super) fn new_object(session: &Session, scene: &tables::Scene, name: &str) -> Vec<Edit> {
     // One stroke a line.
     let mut strokes = Array::new();
     strokes.set_trailing("\n");
@@ -214,8 +218,8 @@ pub(super) fn new_object(session: &Session, index: usize) -> Vec<Edit> {
     if let Some(transfer) = session.prepared.as_ref().and_then(|scene| look(scene)) {
         object.insert("transfer", transfer.into());
     }
-    let mut edits = vec![Edit::Insert("object".into(), index, object)];
-    if index == 0 && session.document.get(&"combine".into()).is_none() {
+    let mut edits = vec![Edit::Insert("object".into(), usize::MAX, object)];
+    if scene.objects.is_empty() && session.document.get(&"combine".into()).is_none() {
         edits.push(Edit::set("combine.fuzzy", "product"));
     }
     edits
