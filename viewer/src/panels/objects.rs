@@ -6,16 +6,18 @@ use super::keys::{Filter, tree};
 use super::paint::PaintTool;
 use super::{Panel, PictureArea};
 use crate::camera::{number, place};
-use crate::document::Edit;
+use crate::document::{Document, Edit};
 use crate::key::KeyPath;
 use crate::schema::Node;
 use crate::session::Session;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::source::Disk;
+use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{self, NodeColor, ObjectTable, Unit};
 use eframe::egui::{self, Color32, ComboBox, ScrollArea, Stroke, Ui};
-use toml_edit::{Array, InlineTable, Value};
+use toml_edit::{Array, InlineTable, Item, Value};
 
-/// The style of what is painted, which all themes have.
+/// The style of what is painted, if the theme has it.
 const STYLE: &str = "muscle";
 
 /// The colour of what is painted, in linear light: #b4483c.
@@ -215,7 +217,7 @@ pub(super) fn new_object(session: &Session, scene: &tables::Scene, name: &str) -
     let mut strokes = Array::new();
     strokes.set_trailing("\n");
     let mut object = InlineTable::from_iter([("name", Value::from(name)), ("strokes", strokes.into())]);
-    if let Some(transfer) = session.prepared.as_ref().and_then(|scene| look(scene)) {
+    if let Some(transfer) = session.prepared.as_ref().and_then(|prepared| look(prepared, &session.document)) {
         object.insert("transfer", transfer.into());
     }
     let mut edits = vec![Edit::Insert("object".into(), usize::MAX, object)];
@@ -225,17 +227,20 @@ pub(super) fn new_object(session: &Session, scene: &tables::Scene, name: &str) -
     edits
 }
 
-/// Returns the function of what is painted: the picture's in one style or colour. None for a function over two quantities.
-fn look(scene: &tables::Scene) -> Option<InlineTable> {
+/// Returns the function of what is painted: the picture's in one style or colour, mixed as the document says for the
+/// picture's. None for a function over two quantities.
+fn look(scene: &tables::Scene, document: &Document) -> Option<InlineTable> {
     let transfer = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none())?;
+    let nodes = transfer.nodes.as_ref()?;
+    let style = style(&scene.styles, nodes);
     let node = |node: &tables::Node| {
-        let color = match node.color {
-            NodeColor::Style(_) => NodeColor::Style(STYLE.into()),
+        let color = match &node.color {
+            NodeColor::Style(own) => NodeColor::Style(style.as_ref().unwrap_or(own).clone()),
             NodeColor::Color(_) => NodeColor::Color(COLOR),
         };
         table(&tables::Node { color, ..node.clone() }, transfer.kind)
     };
-    let nodes: Array = transfer.nodes.as_ref()?.iter().map(node).collect();
+    let nodes: Array = nodes.iter().map(node).collect();
     let kind = match transfer.kind {
         tables::TransferKind::Style => "style",
         tables::TransferKind::Regular => "regular",
@@ -244,5 +249,22 @@ fn look(scene: &tables::Scene) -> Option<InlineTable> {
     if transfer.unit != Unit::Value {
         look.insert("unit", transfer.unit.name().into());
     }
+    for name in ["transparency", "mix", "sphere_frame", "table"] {
+        if let Some(value) = document.get(&KeyPath::from("transfer").name(name)).and_then(Item::as_value) {
+            let mut value = value.clone();
+            value.decor_mut().clear();
+            look.insert(name, value);
+        }
+    }
     Some(look)
+}
+
+/// Returns the style of what is painted: in a theme without [`STYLE`], it is the first one that no node of the picture has.
+fn style(styles: &tables::Styles, nodes: &[tables::Node]) -> Option<String> {
+    let theme = Theme::open(&Disk, &styles.theme).ok();
+    let of_theme = theme.iter().flat_map(Theme::names);
+    let all: Vec<&str> = styles.files.iter().map(|(name, _)| name.as_str()).chain(of_theme).collect();
+    let is_taken = |name: &str| nodes.iter().any(|node| matches!(&node.color, NodeColor::Style(own) if own == name));
+    let free = || all.iter().find(|name| !is_taken(name));
+    all.iter().find(|name| **name == STYLE).or_else(free).map(|name| (*name).to_owned())
 }

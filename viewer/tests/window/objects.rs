@@ -5,7 +5,7 @@ use drypoint::job::Job;
 use drypoint::picking::pick_pixel;
 use drypoint::scene::clip::ClipPlane;
 use drypoint::scene::glam::DVec3;
-use drypoint::scene::tables::{PaintMode, PaintStroke, PaintTarget};
+use drypoint::scene::tables::{NodeColor, PaintMode, PaintStroke, PaintTarget};
 use drypoint_viewer::app::Backend;
 use drypoint_viewer::document::Document;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
@@ -101,6 +101,35 @@ fn a_click_paints_a_new_object() {
     let scene = viewer(&window).session.scene.clone().unwrap();
     assert_eq!(scene.objects[0].strokes.as_ref().unwrap().len(), 1, "{}", text(&window));
     assert!(super::difference(&first, &pixels(&window)) > 0.002 && viewer(&window).session.failures.is_none());
+}
+
+/// What is painted has the look of the picture in another style of its theme, which may lack the usual one.
+#[test]
+fn a_new_object_has_a_style_of_the_theme() {
+    let folder = tempfile::tempdir().unwrap();
+    let theme = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../data/themes/studio");
+    for name in ["bone.png", "wax.png"] {
+        std::fs::copy(theme.join(name), folder.path().join(name)).unwrap();
+    }
+    let nodes = "nodes = [{ at = 120, style = \"bone\", opacity = 0 }, { at = 150, style = \"bone\", opacity = 0.9 }]";
+    let mixed = "transparency = \"plain\" # clear\nmix = \"printed\"\nsphere_frame = \"view\"\ntable = 64\n";
+    let head = SCENE.split("[transfer]").next().unwrap();
+    let scene = format!("{head}[styles]\ntheme = {:?}\n[transfer]\n{mixed}{nodes}\n", folder.path());
+    let Some(mut window) = open(&scene, "Objects") else { return };
+    let first = pixels(&window);
+    press(&mut window, Key::B, Modifiers::NONE);
+    let at = middle(&window) + Vec2::new(-60.0, 40.0);
+    click(&mut window, at);
+    finish(&mut window);
+    let session = &viewer(&window).session;
+    assert!(session.failures.is_none(), "{:?}", session.failures);
+    let scene = session.scene.clone().unwrap();
+    let mut expected = scene.transfer.clone().unwrap();
+    for node in expected.nodes.iter_mut().flatten() {
+        node.color = NodeColor::Style("wax".into());
+    }
+    assert_eq!(scene.objects[0].transfer.as_ref(), Some(&expected));
+    assert!(super::difference(&first, &pixels(&window)) > 0.002);
 }
 
 /// The handle of an axis moves the object along it, and no other way.
