@@ -131,8 +131,9 @@ impl Viewer {
         }
     }
 
-    /// Looks for the text of an earlier session.
+    /// Looks for the text of an earlier session. Commands that wait were given for another document.
     fn opened(&mut self) {
+        self.deferred.clear();
         let document = &self.session.document;
         self.recovered = self.state.unsaved(document.path(), document.text());
         self.kept = document.revision();

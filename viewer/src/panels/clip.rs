@@ -123,7 +123,7 @@ fn plane_ui(ui: &mut Ui, session: &mut Session, i: usize, clip: &Clip, plane: Pl
         if ui.button("Flip").clicked()
             && let Some(given) = clip.normal
         {
-            session.set(&normal, Value::from_iter((-given).to_array()));
+            session.set(&normal, Value::from_iter((-given).to_array().map(number)));
         }
         if ui.button("Across the view").clicked()
             && let Some(pose) = session.pose()
