@@ -135,7 +135,8 @@ impl PaintTool {
             (self.open, self.depth) = (None, None);
         }
         self.ask(ui.ctx());
-        let is_out = self.waiting.iter().chain(&self.asked).any(|part| part.stroke.is_some());
+        let is_dab = |part: &Part| part.stroke.is_some() && part.document == session.document_number();
+        let is_out = self.waiting.iter().chain(&self.asked).any(is_dab);
         session.is_stroke_open = is_out || self.open.is_some();
         if session.is_settled() && !session.is_stroke_open {
             self.trail.clear();
@@ -252,12 +253,6 @@ impl PaintTool {
 
     /// Takes the answer to the question, and appends the dabs that it is of.
     fn take(&mut self, session: &mut Session) {
-        let document = session.document_number();
-        self.waiting.retain(|part| part.document == document);
-        if let Some(part) = self.asked.as_mut().filter(|part| part.document != document) {
-            // Its answer is still to come.
-            part.stroke = None;
-        }
         let answer = self.picker.as_ref().and_then(|picker| picker.answers().last());
         let Some((part, answer)) = self.asked.take_if(|_| answer.is_some()).zip(answer) else { return };
         let found: Vec<Picked> = match answer {
@@ -265,7 +260,8 @@ impl PaintTool {
             Err(failures) => return session.notice = failures.to_string(),
         };
         self.depth = found.last().map(|picked| picked.depth).or(self.depth);
-        if let Some(stroke) = part.stroke.filter(|_| !found.is_empty()) {
+        let is_of_document = part.document == session.document_number();
+        if let Some(stroke) = part.stroke.filter(|_| is_of_document && !found.is_empty()) {
             append(session, &stroke, &found, part.data.volume.grid());
         }
     }
