@@ -57,6 +57,8 @@ pub struct Viewer {
     recovered: Option<String>,
     /// The name of the next view to be saved.
     view_name: String,
+    /// Commands that were given while a stroke was painted. They follow it.
+    deferred: Vec<Action>,
     is_asking_to_close: bool,
     may_close: bool,
     looked: Instant,
@@ -92,6 +94,7 @@ impl Viewer {
             export: None,
             recovered: None,
             view_name: String::new(),
+            deferred: Vec::new(),
             is_asking_to_close: false,
             may_close: false,
             looked: Instant::now(),
@@ -128,8 +131,9 @@ impl Viewer {
         }
     }
 
-    /// Looks for the text of an earlier session.
+    /// Looks for the text of an earlier session. Commands that wait were given for another document.
     fn opened(&mut self) {
+        self.deferred.clear();
         let document = &self.session.document;
         self.recovered = self.state.unsaved(document.path(), document.text());
         self.kept = document.revision();
@@ -156,7 +160,8 @@ impl Viewer {
         });
         actions.extend(self.palette.ui(&ctx, &mut |wish, path| self.dialogs.put(wish, path)));
         self.ask_to_close(&ctx);
-        for action in actions {
+        let deferred = std::mem::take(&mut self.deferred);
+        for action in deferred.into_iter().chain(actions) {
             self.run(&ctx, action);
         }
         self.seal(&ctx);

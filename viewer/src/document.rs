@@ -3,6 +3,7 @@
 use crate::edit::{self, EditError};
 use crate::history::History;
 use crate::key::KeyPath;
+use crate::paths::absolute_paths;
 use drypoint::scene::atomic;
 use drypoint::scene::file::{self, Overrides};
 use drypoint::scene::tables::Scene;
@@ -187,38 +188,45 @@ impl Document {
     /// # Errors
     /// Errors of the operating system.
     pub fn save(&mut self) -> Result<(), Failure> {
-        let written = atomic::write(&self.path, |out: &mut dyn Write| out.write_all(self.text.as_bytes()));
-        written.map_err(|error: io::Error| {
-            let what = format!("the scene cannot be written: {error}");
-            Failure::new(what, self.path.display(), atomic::remedy(&error))
-        })?;
-        self.history.seal();
-        (self.is_untitled, self.stamp) = (false, modified(&self.path));
-        self.saved.clone_from(&self.text);
-        Ok(())
+        self.write(self.path.clone(), self.text.clone())
     }
 
-    /// Writes the text to another file, which is the document's from then on. If its folder is another one, the volume's
-    /// relative path becomes one from the working directory or the root.
+    /// Writes the text to another file, which is the document's from then on. If its folder is another one, relative paths
+    /// in the scene become absolute, so that the files are still found.
     ///
     /// # Errors
-    /// Errors of the operating system. The document then keeps its file.
+    /// Errors of the operating system; if the folder is another one, also a scene with faults, whose paths are not known.
+    /// The document then keeps its file and its text.
     pub fn save_as(&mut self, path: &Path) -> Result<(), Failure> {
-        let key = KeyPath::from("volume.file");
-        let old = std::mem::replace(&mut self.path, path.into());
-        let named = self.get(&key).and_then(Item::as_str).map(PathBuf::from);
-        if let (Some(volume), true) = (named, old.parent() != path.parent()) {
-            let moved = std::path::absolute(old.with_file_name(volume));
-            if let Some(moved) = moved.ok().as_deref().and_then(Path::to_str) {
-                // A key that is there can be set.
-                let _ = self.set(&key, moved);
-            }
-        }
-        let saved = self.save();
-        if saved.is_err() {
-            self.path = old;
-        }
-        saved
+        let is_moved = self.path.parent() != path.parent();
+        let text = if is_moved { self.text_elsewhere()? } else { self.text.clone() };
+        self.write(path.into(), text)
+    }
+
+    /// Returns the text for another folder.
+    fn text_elsewhere(&self) -> Result<String, Failure> {
+        let fault = |reason: String| {
+            let what = format!("the paths in the scene cannot be moved to another folder: {reason}");
+            Failure::new(what, self.path.display(), "correct the scene first, or save it in the same folder")
+        };
+        let toml = self.toml.as_ref().ok_or_else(|| fault(EditError::Unreadable.to_string()))?;
+        absolute_paths(toml, &self.path)
+            .map_err(|failures| fault(failures.iter().next().map_or_else(String::new, |failure| failure.what.clone())))
+    }
+
+    /// Writes a text to a file. Both are the document's once they are written.
+    fn write(&mut self, path: PathBuf, text: String) -> Result<(), Failure> {
+        let written = atomic::write(&path, |out: &mut dyn Write| out.write_all(text.as_bytes()));
+        written.map_err(|error: io::Error| {
+            let what = format!("the scene cannot be written: {error}");
+            Failure::new(what, path.display(), atomic::remedy(&error))
+        })?;
+        self.take("save in another folder", text);
+        self.history.seal();
+        (self.is_untitled, self.stamp) = (false, modified(&path));
+        self.path = path;
+        self.saved.clone_from(&self.text);
+        Ok(())
     }
 
     /// Reads the file anew if another program has written it. The text before is one change that can be undone. Returns

@@ -65,6 +65,8 @@ pub struct Frame {
 /// The volume of a scene with its histogram.
 #[derive(Clone, Debug)]
 pub struct VolumeData {
+    /// The table that it was read for.
+    pub table: VolumeTable,
     /// The volume.
     pub volume: Arc<Volume>,
     /// Counts of its values.
@@ -74,6 +76,8 @@ pub struct VolumeData {
 /// A scene as a job completes it, and what it tells of it.
 #[derive(Clone, Debug)]
 pub struct Prepared {
+    /// The revision of the document that the job was made of.
+    pub revision: u64,
     /// The scene, with what was found in the data.
     pub scene: Arc<Scene>,
     /// Warnings.
@@ -124,7 +128,7 @@ struct Artist {
     card: Option<Presenter>,
     /// Frames on the card, which outlive the jobs that they were made from.
     on_card: Option<Box<GpuFrames>>,
-    data: Option<(VolumeTable, Arc<VolumeData>)>,
+    data: Option<Arc<VolumeData>>,
     pace: Pace,
 }
 
@@ -133,10 +137,9 @@ impl Artist {
         let mut next = self.desk.wait();
         while let Some(mut request) = next {
             request.scene.picture.size = shown_size(&request.scene, request.longest);
-            let revision = request.revision;
-            let served = self.job(&request.scene).and_then(|job| Ok(self.serve(&job, request)?));
+            let served = self.job(&request.scene).and_then(|job| Ok(self.serve(&job, &mut request)?));
             next = served.unwrap_or_else(|failures| {
-                self.desk.answer(Answer::Failed(revision, failures));
+                self.desk.answer(Answer::Failed(request.revision, failures));
                 self.desk.wait()
             });
         }
@@ -145,12 +148,12 @@ impl Artist {
     /// Makes the job of a scene. The volume is read only if `[volume]` has changed.
     fn job(&mut self, scene: &Scene) -> Result<Job, Failures> {
         let volume = match &self.data {
-            Some((table, data)) if *table == scene.volume => Arc::clone(&data.volume),
+            Some(data) if data.table == scene.volume => Arc::clone(&data.volume),
             _ => {
                 let volume = Arc::new(read_volume(scene, &Disk)?);
-                let data =
-                    Arc::new(VolumeData { histogram: Histogram::new(&volume, BINS), volume: Arc::clone(&volume) });
-                self.data = Some((scene.volume.clone(), Arc::clone(&data)));
+                let (table, histogram) = (scene.volume.clone(), Histogram::new(&volume, BINS));
+                let data = Arc::new(VolumeData { table, volume: Arc::clone(&volume), histogram });
+                self.data = Some(Arc::clone(&data));
                 self.desk.answer(Answer::Loaded(data));
                 volume
             }
@@ -158,12 +161,12 @@ impl Artist {
         Job::with_volume_for(scene.clone(), volume, RenderTarget::Picture, Arc::new(Disk))
     }
 
-    /// Draws a job, and the requests after it that only move its camera. Returns the next request; none if the window is
-    /// closed.
-    fn serve(&mut self, job: &Job, mut request: Box<Request>) -> Result<Option<Box<Request>>, Failure> {
+    /// Draws a job, and the requests after it that only move its camera. Each takes the place of the one before, so that
+    /// a failure is that of `request`. Returns the next request; none if the window is closed.
+    fn serve(&mut self, job: &Job, request: &mut Box<Request>) -> Result<Option<Box<Request>>, Failure> {
         let mut warnings: Vec<String> = job.plan.warnings.iter().map(ToString::to_string).collect();
         let mut canvas = if job.draws_volume() { Some(self.canvas(job, &mut warnings)?) } else { None };
-        let range = self.data.as_ref().map_or(job.volume.range(), |(_, data)| [data.histogram.lo, data.histogram.hi]);
+        let range = self.data.as_ref().map_or(job.volume.range(), |data| [data.histogram.lo, data.histogram.hi]);
         let colors = Arc::new(ValueColors::of(job, range));
         let boxes = job
             .scene
@@ -171,11 +174,12 @@ impl Artist {
             .iter()
             .map(|object| job.corners(&job.scene.objects, &PartName::Ghost(object.name.clone())))
             .collect();
-        self.desk.answer(Answer::Prepared(Prepared { scene: Arc::new(job.scene.clone()), warnings, colors, boxes }));
+        let scene = Arc::new(job.scene.clone());
+        self.desk.answer(Answer::Prepared(Prepared { revision: request.revision, scene, warnings, colors, boxes }));
         // The job keeps the first camera.
         let mut is_turned = false;
         loop {
-            let next = match self.draw(job, &mut canvas, &request, is_turned)? {
+            let next = match self.draw(job, &mut canvas, request, is_turned)? {
                 Mail::Nothing => self.desk.wait(),
                 Mail::Request(newer) => Some(newer),
                 Mail::Closed => None,
@@ -188,7 +192,7 @@ impl Artist {
                 }
                 return Ok(Some(newer));
             }
-            (request, is_turned) = (newer, true);
+            (*request, is_turned) = (newer, true);
         }
     }
 
@@ -251,7 +255,7 @@ impl Artist {
     fn draw_page(&self, job: &Job, request: &Request, is_turned: bool) -> Result<(), Failure> {
         let start = Instant::now();
         let turned = is_turned.then(|| {
-            let volume = self.data.as_ref().map_or(&job.volume, |(_, data)| &data.volume);
+            let volume = self.data.as_ref().map_or(&job.volume, |data| &data.volume);
             Job::with_volume_for(request.scene.clone(), Arc::clone(volume), RenderTarget::Picture, Arc::new(Disk))
         });
         let turned = match turned.transpose() {
@@ -273,28 +277,35 @@ impl Artist {
     }
 }
 
-/// Returns the size in which a scene is shown: its own, or a smaller one of the same shape. Lengths on a page keep theirs.
+/// Returns the size in which a scene is shown: its own, or a smaller one of the same shape. Scenes with lengths on a page or
+/// places at pixels keep theirs.
 pub fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
     let [width, height] = scene.picture.size;
     let own = width.max(height);
-    if own <= longest || scene.draws_on_page() {
+    if own <= longest || scene.draws_on_page() || picks(scene) {
         [width, height]
     } else {
         [width, height].map(|n| (n * longest).div_ceil(own))
     }
 }
 
+/// Whether something is found at a pixel of the picture: a focus of halos, or a stroke. Brushes at points of the world are
+/// not.
+fn picks(scene: &Scene) -> bool {
+    scene.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
+        || scene
+            .objects
+            .iter()
+            .flat_map(|object| object.strokes.iter().flatten())
+            .any(|stroke| matches!(stroke.target, PaintTarget::Pixel(_)))
+}
+
 /// Whether a scene differs from the one before it in the place and the direction of its camera alone, and nothing is found
 /// at a pixel.
 pub(crate) fn only_turns(before: &Scene, after: &Scene) -> bool {
-    let picks = before.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
-        || before.objects.iter().flat_map(|object| object.strokes.iter().flatten()).any(|stroke| {
-            // Brushes at points of the world stay there.
-            matches!(stroke.target, PaintTarget::Pixel(_))
-        });
     let Camera { projection, near, .. } = after.camera;
     let camera = Camera { projection, near, ..before.camera.clone() };
-    !picks && Scene { camera, ..after.clone() } == *before
+    !picks(before) && Scene { camera, ..after.clone() } == *before
 }
 
 /// Returns the shot of a job from another camera, with sides divided by `divisor`.

@@ -10,6 +10,7 @@
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
 //! | [`focus`] | halos focused at a place |
 //! | [`compare`] | the card against the reference, in the background |
+//! | `paths.rs` | relative paths of a scene that is saved in another folder |
 //! | [`camera`] | moves of the camera in closed form |
 //! | [`views`] | cameras that are kept by a name |
 //! | [`panels`] | the panels; a further one is an entry in [`panels::all`] |
@@ -36,6 +37,7 @@ mod mailbox;
 pub mod open;
 mod palette;
 pub mod panels;
+mod paths;
 pub mod picture;
 mod pointer;
 mod present;

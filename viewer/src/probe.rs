@@ -112,10 +112,10 @@ type ProbeDesk = Desk<PixelQuery, PixelReport>;
 
 fn run(desk: &ProbeDesk) {
     let mut next = desk.wait();
-    while let Some(query) = next {
-        let PixelQuery { serial, pixel, is_click, .. } = query;
-        let served = load(&query).and_then(|(job, names)| Ok(serve(desk, &job, &names, query)?));
+    while let Some(mut query) = next {
+        let served = load(&query).and_then(|(job, names)| Ok(serve(desk, &job, &names, &mut query)?));
         next = served.unwrap_or_else(|failures| {
+            let PixelQuery { serial, pixel, is_click, .. } = query;
             desk.answer(PixelReport { serial, pixel, is_click, place: Err(failures) });
             desk.wait()
         });
@@ -131,18 +131,18 @@ fn load(query: &PixelQuery) -> Result<(Job, LabelNames), Failures> {
     Ok((job, names))
 }
 
-/// Answers a question, and those after it whose scenes only move the camera. Returns the next question; none if the
-/// window is closed.
+/// Answers a question, and those after it whose scenes only move the camera. Each takes the place of the one before, so
+/// that a failure is that of `query`. Returns the next question; none if the window is closed.
 fn serve(
     desk: &ProbeDesk,
     job: &Job,
     names: &LabelNames,
-    mut query: PixelQuery,
+    query: &mut PixelQuery,
 ) -> Result<Option<PixelQuery>, Failure> {
     let mut renderer = job.renderer()?;
     let mut field = None;
     loop {
-        let PixelQuery { serial, pixel, is_click, .. } = query;
+        let PixelQuery { serial, pixel, is_click, .. } = *query;
         let picked = pick_pixel(&renderer, pixel);
         let report = |field: Option<&Field<'_, f64>>, is_click: bool| {
             let place = picked.map(|picked| ProbedPlace {
@@ -161,11 +161,11 @@ fn serve(
             }
         }
         let Some(newer) = desk.wait() else { return Ok(None) };
-        let is_same = Arc::ptr_eq(&query.volume, &newer.volume);
-        if !is_same || !follow(job, &mut renderer, [&query.scene, &newer.scene])? {
-            return Ok(Some(newer));
+        let before = std::mem::replace(query, newer);
+        let is_same = Arc::ptr_eq(&before.volume, &query.volume);
+        if !is_same || !follow(job, &mut renderer, [&before.scene, &query.scene])? {
+            return Ok(Some(query.clone()));
         }
-        query = newer;
     }
 }
 

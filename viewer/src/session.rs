@@ -40,8 +40,6 @@ pub struct Session {
     pub prepared: Option<Arc<Scene>>,
     /// The colours of values in the function of the scene that is drawn.
     pub colors: Option<Arc<ValueColors>>,
-    /// The volume that is drawn.
-    pub data: Option<Arc<VolumeData>>,
     /// The faults of the text, or of drawing it.
     pub failures: Option<Failures>,
     /// Warnings of the scene that is drawn.
@@ -72,6 +70,10 @@ pub struct Session {
     /// Whether the place of a click is not yet known.
     awaits_click: bool,
     serial: u64,
+    /// The serial number at which the document was taken: its scenes have greater ones.
+    first: u64,
+    /// The volume that was read last. It may be that of an earlier scene.
+    loaded: Option<Arc<VolumeData>>,
     /// The document's revision that was read, and the size that was asked for.
     asked: Option<(u64, usize)>,
 }
@@ -84,7 +86,6 @@ impl Session {
             scene: None,
             prepared: None,
             colors: None,
-            data: None,
             failures: None,
             warnings: Vec::new(),
             shown: None,
@@ -102,18 +103,36 @@ impl Session {
             questioned: None,
             awaits_click: false,
             serial: 0,
+            first: 0,
+            loaded: None,
             asked: None,
         }
     }
 
-    /// Takes another document.
+    /// Takes another document. Nothing that was found about the one before is kept, and answers that are still to come
+    /// about it are ignored.
     pub fn take(&mut self, document: Document) {
         self.document = document;
-        self.asked = None;
-        (self.scene, self.prepared, self.failures) = (None, None, None);
-        (self.cross, self.probed, self.awaits_click) = (None, None, false);
-        (self.boxes, self.is_painting) = (Vec::new(), false);
+        self.serial += 1;
+        (self.first, self.asked) = (self.serial, None);
+        (self.scene, self.prepared, self.colors, self.failures) = (None, None, None, None);
+        (self.shown, self.cross, self.probed) = (None, None, None);
+        (self.questioned, self.awaits_click) = (None, false);
+        (self.is_painting, self.is_stroke_open) = (false, false);
+        self.boxes.clear();
+        self.warnings.clear();
         self.notice.clear();
+    }
+
+    /// Returns a number that no other document of the session has.
+    pub(crate) fn document_number(&self) -> u64 {
+        self.first
+    }
+
+    /// Returns the volume of the scene; none while it is read.
+    pub fn data(&self) -> Option<&Arc<VolumeData>> {
+        let scene = self.scene.as_ref()?;
+        self.loaded.as_ref().filter(|data| data.table == scene.volume)
     }
 
     /// Reads the document if it has changed, asks for its frames, and takes the answers.
@@ -139,13 +158,13 @@ impl Session {
                     let [lo, hi] = grid.index_box();
                     let is_inside = |at: DVec3| at.cmpge(lo).all() && at.cmple(hi).all();
                     self.cross = self.cross.filter(|cross| is_inside(grid.to_index(*cross)));
-                    self.data = Some(data);
+                    self.loaded = Some(data);
                 }
-                Answer::Prepared(Prepared { scene, warnings, colors, boxes }) => {
+                Answer::Prepared(Prepared { revision, scene, warnings, colors, boxes }) if revision > self.first => {
                     (self.prepared, self.warnings, self.colors) = (Some(scene), warnings, Some(colors));
                     self.boxes = boxes;
                 }
-                Answer::Drawn(frame) => {
+                Answer::Drawn(frame) if frame.revision > self.first => {
                     let (size, is_coarse, seconds, serial) =
                         (frame.size, frame.is_coarse, frame.seconds, frame.revision);
                     self.screen.show(ctx, frame);
@@ -156,7 +175,7 @@ impl Session {
                 Answer::Failed(serial, failures) if serial == self.serial => {
                     self.failures.get_or_insert(failures);
                 }
-                Answer::Failed(..) => {}
+                Answer::Prepared(_) | Answer::Drawn(_) | Answer::Failed(..) => {}
             }
         }
         let reports: Vec<PixelReport> = self.prober.answers().collect();
@@ -165,18 +184,21 @@ impl Session {
 
     /// Asks what is seen at a pixel of the scene's picture; with `is_click` the cross-hair moves there.
     pub fn ask_pixel(&mut self, pixel: [usize; 2], is_click: bool) {
-        let (Some(scene), Some(data)) = (self.scene.clone(), &self.data) else { return };
+        let (Some(scene), Some(data)) = (self.scene.clone(), self.data()) else { return };
         let question = (self.serial, pixel);
         // A click is not given up for a pointer that rests.
         if is_click || !self.awaits_click && self.questioned != Some(question) {
-            self.questioned = Some(question);
-            self.awaits_click = is_click;
             let (serial, volume) = (self.serial, Arc::clone(&data.volume));
+            (self.questioned, self.awaits_click) = (Some(question), is_click);
             self.prober.ask(PixelQuery { serial, scene, volume, pixel, is_click });
         }
     }
 
+    /// Takes a report, unless another question was asked after it.
     fn take_report(&mut self, report: PixelReport) {
+        if self.questioned != Some((report.serial, report.pixel)) {
+            return;
+        }
         if report.is_click && std::mem::take(&mut self.awaits_click) {
             match &report.place {
                 Ok(Some(place)) => self.cross = Some(place.picked.world),
@@ -201,7 +223,7 @@ impl Session {
 
     /// Returns the camera of the document, once its volume is loaded.
     pub fn pose(&self) -> Option<Pose> {
-        let (scene, data) = (self.scene.as_ref()?, self.data.as_ref()?);
+        let (scene, data) = (self.scene.as_ref()?, self.data()?);
         Pose::new(&scene.camera, data.volume.grid(), scene.picture.size).ok()
     }
 

@@ -1,5 +1,6 @@
 //! Documents: edits keep everything else, and undo restores every byte.
 
+use drypoint::scene::file::{Overrides, parse};
 use drypoint_viewer::document::{Document, Edit};
 use drypoint_viewer::key::KeyPath;
 use drypoint_viewer::state::State;
@@ -144,19 +145,80 @@ fn a_file_that_another_program_writes_is_read_anew() {
     assert!(document.text() == ours && document.is_changed());
 }
 
+/// A scene with a path in every table that has one. Some names are like paths and stay.
+const PATHS: &str = r##"# All of them.
+drypoint = 1
+
+[volume]
+file = "head.nrrd"   # the head
+labels = "../labels.nrrd"
+label_names = "names.csv"
+
+[picture]
+background = "sky.png"
+
+[styles]
+theme = "mine"
+mine = "pictures/wax.png"
+other = { file = "pictures/wax.png", linear = true }
+
+[transfer]
+kind = "style"
+nodes = [{ at = 1, style = "mine", opacity = 0.5 }]
+
+[[object]]
+name = "names.csv"
+volume = "part.nrrd"
+labels = "ids.nrrd"
+label_names = "ids.csv"
+selection = "mask.nrrd"
+transfer = { kind = "regular", over = ["value", { volume = "second.nrrd" }], nodes = [
+  { at = [0, 0], color = "#ffffff", opacity = 0 }, { at = [1, 0], color = "#ffffff", opacity = 0.5 },
+  { at = [0, 1], color = "#ffffff", opacity = 0 }, { at = [1, 1], color = "#ffffff", opacity = 0.5 },
+] }
+
+[[mesh]]
+file = "knife.obj"
+
+[[intersection]]
+object = "names.csv"
+color = "meeting.png"
+
+[[pen]]
+name = "black"
+tone = "wedge.csv"
+"##;
+
+/// A scene that is saved in another folder names the same files, and nothing else of it changes.
 #[test]
-fn a_scene_that_is_saved_elsewhere_finds_its_volume() {
+fn a_scene_that_is_saved_elsewhere_finds_its_files() {
     let folder = tempfile::tempdir().unwrap();
-    let text = "drypoint = 1\n[volume]\nfile = \"head.nrrd\"\n";
-    let mut document = Document::untitled(text.into(), folder.path().join("head.toml"));
-    std::fs::create_dir(folder.path().join("scenes")).unwrap();
-    document.save_as(&folder.path().join("head.toml")).unwrap();
-    assert_eq!(document.text(), text);
-    document.save_as(&folder.path().join("scenes/head.toml")).unwrap();
-    let named = document.get(&key("volume.file")).and_then(|item| item.as_str()).unwrap();
-    assert_eq!(std::path::Path::new(named), folder.path().join("head.nrrd"));
+    let [here, there] = ["a/head.toml", "b/head.toml"].map(|path| folder.path().join(path));
+    ["a", "b"].iter().for_each(|name| std::fs::create_dir(folder.path().join(name)).unwrap());
+    let read = |document: &Document| {
+        let scene = parse(document.text(), document.path(), &Overrides::default());
+        scene.unwrap_or_else(|faults| panic!("{faults}"))
+    };
+    let mut document = Document::untitled(PATHS.into(), here.clone());
+    let scene = read(&document);
+    assert_eq!(scene.files().len(), 15);
+    document.save_as(&folder.path().join("a/other.toml")).unwrap();
+    assert_eq!(document.text(), PATHS);
+    // What cannot be written changes nothing.
+    let other = document.path().to_owned();
     assert!(document.save_as(&folder.path().join("none/head.toml")).is_err());
-    assert_eq!(document.path(), folder.path().join("scenes/head.toml"));
+    assert!(document.path() == other && document.text() == PATHS && document.history().next_undo().is_none());
+    document.save_as(&there).unwrap();
+    assert_eq!(read(&document), scene);
+    assert!(document.path() == there && !document.is_changed() && document.text().contains("# the head"));
+    assert!(document.text().contains("style = \"mine\"") && document.text().contains("object = \"names.csv\""));
+    assert_eq!(std::fs::read_to_string(&there).unwrap(), document.text());
+    // Paths of a scene with faults are not known.
+    document.set(&key("camera.fov"), 200).unwrap();
+    let faulty = document.text().to_owned();
+    let failure = document.save_as(&here).unwrap_err();
+    assert!(failure.what.contains("paths") && document.path() == there && document.text() == faulty, "{failure}");
+    document.save().unwrap();
 }
 
 /// A saved view is read back from the window's state, and gives the camera back key by key with the comments beside it.

@@ -1,10 +1,14 @@
 //! The thread that draws: what is prepared anew, and that each frame is that of a fresh thread.
 
 use drypoint::gpu::Gpu;
+use drypoint::job::read_volume;
 use drypoint::scene::file::{Overrides, parse};
+use drypoint::scene::source::Disk;
 use drypoint::scene::tables::Scene;
 use drypoint_viewer::canvas::Pixels;
 use drypoint_viewer::frames::{Answer, Request, Worker};
+use drypoint_viewer::probe::{PixelQuery, Prober};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 const SCENE: &str = r##"
@@ -127,4 +131,52 @@ fn a_failure_ends_with_the_next_request() {
     let background = SCENE.replace("samples = 1", "samples = 1\nbackground = \"none.png\"");
     assert!(ask(&worker, 3, &background, 1000).failed.unwrap().contains("none.png"));
     assert!(ask(&worker, 4, SCENE, 1000).failed.is_none());
+}
+
+/// A camera in its own target cannot look anywhere, and only a job tells that the target is the volume's middle.
+fn blind() -> String {
+    SCENE.replace("direction = [1, 2, -3]", "eye = [11.5, 11.5, 11.5]")
+}
+
+/// A failure after a turn is that of the turned scene: `ask` compares the revisions.
+#[test]
+fn a_turn_that_fails_is_told_by_its_own_revision() {
+    let worker = Worker::new(None, Box::new(|| ()));
+    assert!(ask(&worker, 1, SCENE, 1000).failed.is_none());
+    let failed = ask(&worker, 2, &blind(), 1000).failed.unwrap();
+    assert!(failed.contains("direction"), "{failed}");
+    assert!(ask(&worker, 3, SCENE, 1000).failed.is_none());
+
+    let volume = Arc::new(read_volume(&scene(SCENE), &Disk).unwrap());
+    let prober = Prober::new(Box::new(|| ()));
+    for (serial, text) in [(1, SCENE), (2, &blind())] {
+        let (scene, volume) = (Arc::new(scene(text)), Arc::clone(&volume));
+        prober.ask(PixelQuery { serial, scene, volume, pixel: [30, 20 + serial as usize], is_click: serial == 2 });
+        let start = Instant::now();
+        let report = loop {
+            assert!(start.elapsed() < Duration::from_secs(60), "no report");
+            if let Some(report) = prober.answers().find(|report| report.serial == serial) {
+                break report;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        assert_eq!((report.place.is_err(), report.is_click), (serial == 2, serial == 2));
+        assert_eq!(report.pixel, [30, 20 + serial as usize]);
+    }
+}
+
+/// A brush at a pixel of the picture paints the same voxels on a screen of any size, so the picture keeps its own.
+#[test]
+fn a_picture_with_places_at_pixels_keeps_its_size() {
+    let object = "[[object]]\nname = \"spot\"\ntransfer = { kind = \"regular\", nodes = [{ at = 120, color = \"#0000ff\", \
+        opacity = 0.9 }] }\n";
+    let worker = Worker::new(None, Box::new(|| ()));
+    for (target, size) in [("pixel = [30, 30]", [60, 45]), ("at = [11.5, 5, 11.5]", [20, 15])] {
+        let text = format!("{SCENE}{object}strokes = [{{ {target}, radius = \"4 voxels\", brush = \"ball\" }}]\n");
+        let [whole, reduced] = [1000, 20].map(|longest| ask(&worker, 1, &text, longest));
+        assert!(whole.failed.is_none() && reduced.failed.is_none(), "{:?}", whole.failed);
+        assert_eq!([whole.size, reduced.size], [[60, 45], size], "{target}");
+        assert_eq!(whole.bytes == reduced.bytes, size == [60, 45], "{target}");
+        assert!(whole.bytes != ask(&worker, 2, SCENE, 1000).bytes, "nothing is painted: {target}");
+    }
 }

@@ -159,7 +159,7 @@ impl Viewer {
                     ui.label(format!("{} — {}", failure.place, failure.remedy));
                 }
                 if ui.button("Undo the last change").clicked() {
-                    self.session.document.undo();
+                    self.run(ui.ctx(), Action::Undo);
                 }
             });
         }
@@ -168,7 +168,7 @@ impl Viewer {
     /// Asks what to do with changes that are not saved before the window is closed.
     pub(super) fn ask_to_close(&mut self, ctx: &Context) {
         if ctx.input(|input| input.viewport().close_requested())
-            && self.session.document.is_changed()
+            && (self.session.document.is_changed() || self.session.is_stroke_open)
             && !self.may_close
         {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);

@@ -18,8 +18,12 @@ const TURN: f64 = std::f64::consts::PI / 36.0;
 const STEP: f64 = 1.1;
 
 impl Viewer {
-    /// Does the work of a command.
+    /// Does the work of a command, once no dab of a stroke is still to come: a stroke is undone and saved as a whole.
     pub fn run(&mut self, ctx: &Context, action: Action) {
+        if self.session.is_stroke_open {
+            self.deferred.push(action);
+            return;
+        }
         let session = &mut self.session;
         match action {
             Action::Open => self.dialogs.open(),
@@ -32,7 +36,7 @@ impl Viewer {
             Action::SaveAs => self.dialogs.save_as(session.document.path()),
             Action::Export => self.dialogs.export(session.document.path()),
             Action::Copy => session.image().into_iter().for_each(|image| ctx.copy_image(image)),
-            Action::FocusHalos => match (session.cross, &session.scene, &session.data) {
+            Action::FocusHalos => match (session.cross, &session.scene, session.data()) {
                 (Some(at), Some(scene), Some(data)) => {
                     let edits = focus(scene, data.volume.grid(), at);
                     session.edit("focus the halos", edits);
@@ -90,7 +94,7 @@ impl Viewer {
     }
 
     fn look_from(&mut self, side: Side) {
-        let anatomy = self.session.data.as_ref().and_then(|data| data.volume.anatomy());
+        let anatomy = self.session.data().and_then(|data| data.volume.anatomy());
         self.session.move_camera("look from a side", |pose| pose.look(side.directions(anatomy)));
     }
 

@@ -10,7 +10,7 @@ use drypoint::scene::glam::{DMat3, DVec3};
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::{Clip, ClipSpace};
 use drypoint::scene::view::View;
-use eframe::egui::{self, Color32, Slider, Ui};
+use eframe::egui::{self, Color32, Slider, SliderClamping, Ui};
 use toml_edit::{Array, InlineTable, Value};
 
 /// The panel of clip planes.
@@ -22,7 +22,7 @@ impl Panel for ClipPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {
-        let (Some(scene), Some(data)) = (session.scene.clone(), session.data.clone()) else {
+        let (Some(scene), Some(data)) = (session.scene.clone(), session.data().cloned()) else {
             ui.weak("The volume is being read.");
             return;
         };
@@ -64,7 +64,7 @@ impl Panel for ClipPanel {
     }
 
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
-        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data.clone(), session.pose())
+        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data().cloned(), session.pose())
         else {
             return false;
         };
@@ -112,7 +112,9 @@ fn plane_ui(ui: &mut Ui, session: &mut Session, i: usize, clip: &Clip, plane: Pl
     let places = grid.world_corners().map(|corner| corner.dot(plane.normal));
     let [least, most] = [places.into_iter().fold(f64::MAX, f64::min), places.into_iter().fold(f64::MIN, f64::max)];
     let mut at = plane.point.dot(plane.normal);
-    let slider = Slider::new(&mut at, least..=most).text("along the normal").max_decimals(3);
+    let slider = Slider::new(&mut at, least..=most).text("along the normal");
+    // A plane outside the box stays there until it is moved.
+    let slider = slider.clamping(SliderClamping::Edits).max_decimals(decimals(grid).max(0) as usize);
     if ui.add(slider).changed() {
         set_point(session, i, clip, plane.point + plane.normal * (at - plane.point.dot(plane.normal)), grid);
     }
@@ -121,12 +123,16 @@ fn plane_ui(ui: &mut Ui, session: &mut Session, i: usize, clip: &Clip, plane: Pl
         if ui.button("Flip").clicked()
             && let Some(given) = clip.normal
         {
-            session.set(&normal, numbers(-given, 6));
+            session.set(&normal, Value::from_iter((-given).to_array().map(number)));
         }
         if ui.button("Across the view").clicked()
-            && let (Some(pose), ClipSpace::World) = (session.pose(), clip.space)
+            && let Some(pose) = session.pose()
         {
-            session.set(&normal, numbers(-pose.view.forward, 6));
+            let towards_eye = match clip.space {
+                ClipSpace::World => -pose.view.forward,
+                ClipSpace::Index => grid.axes().transpose() * -pose.view.forward,
+            };
+            session.set(&normal, numbers(towards_eye.normalize_or(DVec3::Z), 6));
         }
     });
 }

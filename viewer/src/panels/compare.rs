@@ -53,7 +53,7 @@ impl Panel for ComparePanel {
             ui.add(DragValue::new(&mut self.longest).range(16..=1024)).labelled_by(label);
             let can_start = self.running.is_none() && session.scene.is_some();
             if ui.add_enabled(can_start, egui::Button::new("Compare now")).clicked()
-                && let (Some(scene), Some(data)) = (&session.scene, &session.data)
+                && let (Some(scene), Some(data)) = (&session.scene, session.data())
             {
                 let scene = reduced(scene, self.longest);
                 let ctx = ui.ctx().clone();

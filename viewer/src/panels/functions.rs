@@ -236,7 +236,7 @@ impl FunctionsPanel {
 /// Places and heights of the log histogram in the unit of nodes. Heights are ln(1 + count), of which the largest is 1. A
 /// histogram over percentiles is flat, and is not shown.
 fn histogram(session: &Session, unit: Unit) -> (Vec<f64>, Vec<f64>) {
-    let Some(data) = session.data.as_ref().filter(|_| unit != Unit::Percentile) else { return Default::default() };
+    let Some(data) = session.data().filter(|_| unit != Unit::Percentile) else { return Default::default() };
     let histogram = &data.histogram;
     let log = |count: u64| (1.0 + count as f64).ln();
     let most = histogram.bins.iter().map(|&count| log(count)).fold(1e-9, f64::max);

@@ -6,16 +6,18 @@ use super::keys::{Filter, tree};
 use super::paint::PaintTool;
 use super::{Panel, PictureArea};
 use crate::camera::{number, place};
-use crate::document::Edit;
+use crate::document::{Document, Edit};
 use crate::key::KeyPath;
 use crate::schema::Node;
 use crate::session::Session;
 use drypoint::scene::glam::DVec3;
+use drypoint::scene::source::Disk;
+use drypoint::scene::style::Theme;
 use drypoint::scene::tables::{self, NodeColor, ObjectTable, Unit};
 use eframe::egui::{self, Color32, ComboBox, ScrollArea, Stroke, Ui};
-use toml_edit::{Array, InlineTable, Value};
+use toml_edit::{Array, InlineTable, Item, Value};
 
-/// The style of what is painted, which all themes have.
+/// The style of what is painted, if the theme has it.
 const STYLE: &str = "muscle";
 
 /// The colour of what is painted, in linear light: #b4483c.
@@ -108,6 +110,7 @@ impl Panel for ObjectsPanel {
     fn over_picture(&mut self, ui: &mut Ui, picture: &PictureArea, session: &mut Session) -> bool {
         let is_shown = std::mem::take(&mut self.is_shown);
         let Some(scene) = session.scene.clone() else { return false };
+        self.chosen = self.chosen.min(scene.objects.len());
         let object = scene.objects.get(self.chosen);
         if session.is_painting && object.is_some_and(|object| object.strokes.is_none() || object.volume.is_some()) {
             session.is_painting = false;
@@ -134,7 +137,7 @@ impl ObjectsPanel {
             let combo = ComboBox::from_id_salt("selected by").selected_text(text).width(130.0).show_ui(ui, |ui| {
                 for one in SELECTIONS
                     .into_iter()
-                    .filter(|(name, _)| *name != "selection" || given.is_some_and(|g| g.0 == *name))
+                    .filter(|one| !["selection", "strokes"].contains(&one.0) || given == Some(*one))
                 {
                     ui.selectable_value(&mut chosen, Some(one), one.1);
                 }
@@ -155,7 +158,7 @@ impl ObjectsPanel {
     /// is on a handle.
     fn handles(&self, ui: &Ui, picture: &PictureArea, session: &mut Session, object: &ObjectTable) -> bool {
         let corners = session.boxes.get(self.chosen).copied().flatten();
-        let (Some(corners), Some(pose), Some(data)) = (corners, session.pose(), session.data.clone()) else {
+        let (Some(corners), Some(pose), Some(data)) = (corners, session.pose(), session.data().cloned()) else {
             return false;
         };
         let map = object.motion.map(corners.iter().sum::<DVec3>() / 8.0);
@@ -192,45 +195,52 @@ fn first(session: &Session, name: &str) -> Value {
     if name == "label" {
         return 1.into();
     }
-    let [lo, hi] = session.data.as_ref().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
+    let [lo, hi] = session.data().map_or([0.0, 1.0], |data| [data.histogram.lo, data.histogram.hi]);
     let pair = |share: f64, membership: i64| {
         Value::Array(Array::from_iter([number(lo + (hi - lo) * share), membership.into()]))
     };
     Value::Array(Array::from_iter([pair(0.5, 0), pair(0.625, 1)]))
 }
 
-/// Returns the edits that add an object to paint, with the picture's function in another colour or style. It has no stroke
-/// yet, so dabs must follow. A soft selection shares with the background what both are made of, unless the scene says how
-/// they are combined.
-pub(super) fn new_object(session: &Session, index: usize) -> Vec<Edit> {
-    let is_taken = |name: &String| session.scene.iter().any(|scene| scene.objects.iter().any(|o| o.name == *name));
+/// Returns a name that no object of a scene has.
+pub(super) fn new_name(scene: &tables::Scene) -> String {
     let names = (1..).map(|n| if n == 1 { "painted".to_owned() } else { format!("painted {n}") });
-    let name = names.into_iter().find(|name| !is_taken(name)).unwrap_or_default();
+    let mut free = names.filter(|name| scene.objects.iter().all(|object| object.name != *name));
+    free.next().unwrap_or_default()
+}
+
+/// Returns the edits that add an object to paint after all others, with the picture's function in another colour or style.
+/// It has no stroke yet, so dabs must follow. A soft selection shares with the background what both are made of, unless
+/// the scene says how they are combined.
+pub(super) fn new_object(session: &Session, scene: &tables::Scene, name: &str) -> Vec<Edit> {
     // One stroke a line.
     let mut strokes = Array::new();
     strokes.set_trailing("\n");
     let mut object = InlineTable::from_iter([("name", Value::from(name)), ("strokes", strokes.into())]);
-    if let Some(transfer) = session.prepared.as_ref().and_then(|scene| look(scene)) {
+    if let Some(transfer) = session.prepared.as_ref().and_then(|prepared| look(prepared, &session.document)) {
         object.insert("transfer", transfer.into());
     }
-    let mut edits = vec![Edit::Insert("object".into(), index, object)];
-    if session.document.get(&"combine".into()).is_none() {
+    let mut edits = vec![Edit::Insert("object".into(), usize::MAX, object)];
+    if scene.objects.is_empty() && session.document.get(&"combine".into()).is_none() {
         edits.push(Edit::set("combine.fuzzy", "product"));
     }
     edits
 }
 
-/// Returns the function of what is painted: the picture's in one style or colour. None for a function over two quantities.
-fn look(scene: &tables::Scene) -> Option<InlineTable> {
+/// Returns the function of what is painted: the picture's in one style or colour, mixed as the document says for the
+/// picture's. None for a function over two quantities.
+fn look(scene: &tables::Scene, document: &Document) -> Option<InlineTable> {
     let transfer = scene.transfer.as_ref().filter(|transfer| transfer.rows.is_none())?;
+    let nodes = transfer.nodes.as_ref()?;
+    let style = style(&scene.styles, nodes);
     let node = |node: &tables::Node| {
-        let color = match node.color {
-            NodeColor::Style(_) => NodeColor::Style(STYLE.into()),
+        let color = match &node.color {
+            NodeColor::Style(own) => NodeColor::Style(style.as_ref().unwrap_or(own).clone()),
             NodeColor::Color(_) => NodeColor::Color(COLOR),
         };
         table(&tables::Node { color, ..node.clone() }, transfer.kind)
     };
-    let nodes: Array = transfer.nodes.as_ref()?.iter().map(node).collect();
+    let nodes: Array = nodes.iter().map(node).collect();
     let kind = match transfer.kind {
         tables::TransferKind::Style => "style",
         tables::TransferKind::Regular => "regular",
@@ -239,5 +249,22 @@ fn look(scene: &tables::Scene) -> Option<InlineTable> {
     if transfer.unit != Unit::Value {
         look.insert("unit", transfer.unit.name().into());
     }
+    for name in ["transparency", "mix", "sphere_frame", "table"] {
+        if let Some(value) = document.get(&KeyPath::from("transfer").name(name)).and_then(Item::as_value) {
+            let mut value = value.clone();
+            value.decor_mut().clear();
+            look.insert(name, value);
+        }
+    }
     Some(look)
+}
+
+/// Returns the style of what is painted: in a theme without [`STYLE`], it is the first one that no node of the picture has.
+fn style(styles: &tables::Styles, nodes: &[tables::Node]) -> Option<String> {
+    let theme = Theme::open(&Disk, &styles.theme).ok();
+    let of_theme = theme.iter().flat_map(Theme::names);
+    let all: Vec<&str> = styles.files.iter().map(|(name, _)| name.as_str()).chain(of_theme).collect();
+    let is_taken = |name: &str| nodes.iter().any(|node| matches!(&node.color, NodeColor::Style(own) if own == name));
+    let free = || all.iter().find(|name| !is_taken(name));
+    all.iter().find(|name| **name == STYLE).or_else(free).map(|name| (*name).to_owned())
 }

@@ -1,25 +1,59 @@
 //! The brush: it is dragged over the picture and appends its dabs to the strokes of an object ([VS-6]).
+//!
+//! A dab is asked about with the scene on which it was drawn, and is written with the stroke's own radius, shape, mode and
+//! object. So it does not matter what has changed before the answer comes; only with another document dabs are dropped.
 
 use super::PictureArea;
-use super::objects::new_object;
-use crate::brush::{BrushPicker, BrushPlaces, BrushQuery, picker};
+use super::objects::{new_name, new_object};
+use crate::brush::{BrushPicker, BrushQuery, picker};
 use crate::camera::{place, rounded};
 use crate::document::Edit;
+use crate::frames::VolumeData;
 use crate::key::KeyPath;
 use crate::session::Session;
-use drypoint::scene::glam::DVec3;
+use drypoint::reference::ray::Picked;
 use drypoint::scene::space::Grid;
 use drypoint::scene::tables::Scene;
-use drypoint::scene::volume::Volume;
-use eframe::egui::{Color32, DragValue, Pos2, Stroke, Ui};
+use eframe::egui::{Color32, Context, DragValue, Pos2, Stroke, Ui};
+use std::collections::VecDeque;
 use std::sync::Arc;
-use toml_edit::InlineTable;
+use toml_edit::{InlineTable, Value};
 
 /// Share of the brush's radius between dabs of a drag.
 const SPACING: f32 = 1.0 / 3.0;
 
 /// Fewest points of the window between dabs.
 const CLOSEST: f32 = 2.0;
+
+/// A stroke as it was begun.
+struct OpenStroke {
+    /// The label of its change. Each stroke is undone by itself.
+    label: String,
+    /// The name of the object that it paints.
+    object: String,
+    /// Whether it makes the object if there is none with that name.
+    makes_object: bool,
+    /// The keys of its dabs, apart from their place.
+    dab: InlineTable,
+}
+
+/// Pixels of a question, with all that tells where they lie and what they paint.
+struct Part {
+    /// The document ([`Session::document_number`]).
+    document: u64,
+    scene: Arc<Scene>,
+    data: Arc<VolumeData>,
+    pixels: Vec<[usize; 2]>,
+    /// The stroke that has a dab at each pixel. None: the pointer's place is asked, to know its depth.
+    stroke: Option<Arc<OpenStroke>>,
+}
+
+impl Part {
+    /// Whether both have dabs of one stroke.
+    fn paints_like(&self, other: &Self) -> bool {
+        self.stroke.as_ref().zip(other.stroke.as_ref()).is_some_and(|(stroke, other)| Arc::ptr_eq(stroke, other))
+    }
+}
 
 /// The brush.
 pub(super) struct PaintTool {
@@ -30,19 +64,19 @@ pub(super) struct PaintTool {
     is_erasing: bool,
     /// The thread, once the brush was on.
     picker: Option<BrushPicker>,
-    /// The question that is not answered: whether it is of dabs, or else of the pointer.
-    asked: Option<bool>,
-    /// Pixels of dabs that are not asked yet.
-    waiting: Vec<[usize; 2]>,
+    /// The question that is not answered. There is one at a time, so none is lost.
+    asked: Option<Part>,
+    /// Questions that are not asked yet.
+    waiting: VecDeque<Part>,
     /// The pointer's pixel that was asked last, and the scene's serial number.
     hovered: Option<(u64, [usize; 2])>,
     /// Whether the drag that goes on is the brush's; none while the button is up.
     is_dragged: Option<bool>,
-    /// The place in the window of the last dab, while the button is down.
-    last: Option<Pos2>,
+    /// The stroke while the button is down, and the place in the window of its last dab.
+    open: Option<(Arc<OpenStroke>, Pos2)>,
     /// The places in the window of dabs that the picture does not show yet.
     trail: Vec<Pos2>,
-    /// Strokes so far. Each is undone by itself.
+    /// Strokes so far.
     strokes: u64,
     /// Eye depth of the last place.
     depth: Option<f64>,
@@ -56,10 +90,10 @@ impl Default for PaintTool {
             is_erasing: false,
             picker: None,
             asked: None,
-            waiting: Vec::new(),
+            waiting: VecDeque::new(),
             hovered: None,
             is_dragged: None,
-            last: None,
+            open: None,
             trail: Vec::new(),
             strokes: 0,
             depth: None,
@@ -95,21 +129,27 @@ impl PaintTool {
         session: &mut Session,
         object: usize,
     ) -> bool {
-        if !session.is_painting {
-            // The document may be another one by now.
-            self.asked = self.asked.map(|_| false);
+        self.take(session);
+        let follows = if session.is_painting { self.follow(ui, picture, session, object) } else { None };
+        if follows.is_none() {
+            (self.open, self.depth) = (None, None);
         }
-        self.take(session, object);
-        session.is_stroke_open = false;
-        if !session.is_painting {
-            (self.last, self.depth) = (None, None);
-            self.waiting.clear();
-            return false;
+        self.ask(ui.ctx());
+        let is_dab = |part: &Part| part.stroke.is_some() && part.document == session.document_number();
+        let is_out = self.waiting.iter().chain(&self.asked).any(is_dab);
+        session.is_stroke_open = is_out || self.open.is_some();
+        if session.is_settled() && !session.is_stroke_open {
+            self.trail.clear();
         }
-        let (Some(scene), Some(data), Some(pose)) = (session.scene.clone(), session.data.clone(), session.pose())
-        else {
-            return false;
-        };
+        let line = Stroke::new(2.0, Color32::from_white_alpha(160));
+        ui.painter_at(picture.rect).line(self.trail.clone(), line);
+        follows == Some(true)
+    }
+
+    /// Draws the stroke of a drag, and shows the brush. Returns whether the pointer is the brush's; none while the volume
+    /// is read.
+    fn follow(&mut self, ui: &Ui, picture: &PictureArea, session: &Session, object: usize) -> Option<bool> {
+        let (scene, data, pose) = (session.scene.clone()?, session.data().cloned()?, session.pose()?);
         // The size of the brush on the window, at the depth of the volume under it.
         let depth = if pose.view.perspective { self.depth.unwrap_or_else(|| pose.depth()) } else { 1.0 };
         let pixels = self.radius * data.volume.grid().voxel() / (pose.view.pixel * depth);
@@ -121,104 +161,132 @@ impl PaintTool {
         let is_free = !modifiers.command && !modifiers.shift;
         self.is_dragged = at.map(|_| self.is_dragged.unwrap_or(is_free));
         let is_brush = self.is_dragged.unwrap_or(is_free);
+        let part = |pixels, stroke| {
+            let (scene, data) = (Arc::clone(&scene), Arc::clone(&data));
+            Part { document: session.document_number(), scene, data, pixels, stroke }
+        };
         match at.filter(|_| is_brush) {
-            Some(at) => self.drag(picture, at, radius),
-            None => self.last = None,
+            Some(at) => {
+                let pixels = self.drag(picture, at, radius, &scene, object);
+                let stroke = self.open.as_ref().map(|(stroke, _)| Arc::clone(stroke));
+                self.wait(part(pixels, stroke));
+            }
+            None => self.open = None,
         }
-        self.ask(ui, picture, session, &scene, &data.volume);
-        session.is_stroke_open = self.last.is_some() || self.asked == Some(true) || !self.waiting.is_empty();
-        if session.is_settled() && !session.is_stroke_open {
-            self.trail.clear();
-        }
-        let painter = ui.painter_at(picture.rect);
-        painter.line(self.trail.clone(), Stroke::new(2.0, Color32::from_white_alpha(160)));
-        if let Some(at) = response.hover_pos().filter(|at| is_brush && picture.rect.contains(*at)) {
+        let hovered = response.hover_pos().filter(|at| is_brush && picture.rect.contains(*at));
+        if let Some(at) = hovered {
+            let painter = ui.painter_at(picture.rect);
             let color = if self.is_erasing { Color32::from_rgb(255, 196, 64) } else { Color32::WHITE };
             painter.circle_stroke(at, radius.max(2.0), Stroke::new(3.0, Color32::from_black_alpha(120)));
             painter.circle_stroke(at, radius.max(2.0), Stroke::new(1.5, color));
         }
-        is_brush
+        let is_idle = self.open.is_none() && self.asked.is_none() && self.waiting.is_empty();
+        let pixel = hovered.filter(|_| is_idle).and_then(|at| picture.pixel_at(at));
+        if let Some(pixel) = pixel.filter(|pixel| self.hovered != Some((session.serial(), *pixel))) {
+            self.hovered = Some((session.serial(), pixel));
+            self.wait(part(vec![pixel], None));
+        }
+        Some(is_brush)
     }
 
-    /// Adds dabs from the last one to a place in the window.
-    fn drag(&mut self, picture: &PictureArea, to: Pos2, radius: f32) {
+    /// Puts a part behind those that are not asked yet. Dabs of one stroke on one scene are one question.
+    fn wait(&mut self, part: Part) {
+        let is_same = |last: &&mut Part| Arc::ptr_eq(&last.scene, &part.scene) && last.paints_like(&part);
+        match self.waiting.back_mut().filter(is_same) {
+            Some(last) => last.pixels.extend(part.pixels),
+            None if part.pixels.is_empty() => {}
+            None => self.waiting.push_back(part),
+        }
+    }
+
+    /// Goes on with the stroke from its last dab to a place in the window, or begins one there. Returns the pixels of the
+    /// new dabs.
+    fn drag(&mut self, picture: &PictureArea, to: Pos2, radius: f32, scene: &Scene, object: usize) -> Vec<[usize; 2]> {
         let spacing = (radius * SPACING).max(CLOSEST);
         let mut places = Vec::new();
-        match self.last {
+        match &mut self.open {
             None => {
                 self.strokes += 1;
                 self.trail.clear();
+                self.open = Some((Arc::new(self.begun(scene, object)), to));
                 places.push(to);
             }
-            Some(mut last) => {
+            Some((_, last)) => {
                 while last.distance(to) >= spacing {
-                    last += (to - last).normalized() * spacing;
-                    places.push(last);
+                    *last += (to - *last).normalized() * spacing;
+                    places.push(*last);
                 }
             }
         }
-        for at in places {
-            self.last = Some(at);
-            self.trail.push(at);
-            self.waiting.extend(picture.pixel_at(at));
+        self.trail.extend(&places);
+        places.into_iter().filter_map(|at| picture.pixel_at(at)).collect()
+    }
+
+    /// A stroke with the settings as they are, on an object or on a new one.
+    fn begun(&self, scene: &Scene, object: usize) -> OpenStroke {
+        let object = scene.objects.get(object);
+        OpenStroke {
+            label: format!("paint stroke {}", self.strokes),
+            object: object.map_or_else(|| new_name(scene), |object| object.name.clone()),
+            makes_object: object.is_none(),
+            dab: InlineTable::from_iter([
+                ("radius", Value::from(format!("{} voxels", rounded(self.radius, 1)))),
+                ("brush", self.shape.into()),
+                ("mode", if self.is_erasing { "subtract" } else { "add" }.into()),
+            ]),
         }
     }
 
-    /// Asks for the places of dabs, or else for the place under the pointer. There is one question at a time, so none is
-    /// lost.
-    fn ask(&mut self, ui: &Ui, picture: &PictureArea, session: &Session, scene: &Scene, volume: &Arc<Volume>) {
-        if self.asked.is_some() {
-            return;
+    /// Asks the next question.
+    fn ask(&mut self, ctx: &Context) {
+        if self.asked.is_none()
+            && let Some(part) = self.waiting.pop_front()
+        {
+            let picker = self.picker.get_or_insert_with(|| {
+                let ctx = ctx.clone();
+                picker(Box::new(move || ctx.request_repaint()))
+            });
+            picker.ask(BrushQuery::new(&part.scene, Arc::clone(&part.data.volume), part.pixels.clone()));
+            self.asked = Some(part);
         }
-        let is_dabs = !self.waiting.is_empty();
-        let pixels = if is_dabs {
-            std::mem::take(&mut self.waiting)
-        } else {
-            let hovered = picture.response.hover_pos().and_then(|at| picture.pixel_at(at));
-            let hovered = hovered.map(|pixel| (session.serial(), pixel)).filter(|_| self.last.is_none());
-            match hovered.filter(|_| hovered != self.hovered) {
-                Some((_, pixel)) => {
-                    self.hovered = hovered;
-                    vec![pixel]
-                }
-                None => return,
-            }
-        };
-        self.asked = Some(is_dabs);
-        let picker = self.picker.get_or_insert_with(|| {
-            let ctx = ui.ctx().clone();
-            picker(Box::new(move || ctx.request_repaint()))
-        });
-        picker.ask(BrushQuery::new(scene, Arc::clone(volume), pixels));
     }
 
     /// Takes the answer to the question, and appends the dabs that it is of.
-    fn take(&mut self, session: &mut Session, object: usize) {
-        let answer: Option<BrushPlaces> = self.picker.as_ref().and_then(|picker| picker.answers().last());
-        let Some((is_dabs, answer)) = self.asked.take_if(|_| answer.is_some()).zip(answer) else { return };
-        let found = match answer {
-            Ok(found) => found.into_iter().flatten().collect::<Vec<_>>(),
+    fn take(&mut self, session: &mut Session) {
+        let answer = self.picker.as_ref().and_then(|picker| picker.answers().last());
+        let Some((part, answer)) = self.asked.take_if(|_| answer.is_some()).zip(answer) else { return };
+        let found: Vec<Picked> = match answer {
+            Ok(found) => found.into_iter().flatten().collect(),
             Err(failures) => return session.notice = failures.to_string(),
         };
         self.depth = found.last().map(|picked| picked.depth).or(self.depth);
-        let Some(data) = session.data.clone().filter(|_| is_dabs && !found.is_empty()) else { return };
-        let strokes = KeyPath::from("object").item(object).name("strokes");
-        let dab = |at| Edit::Insert(strokes.clone(), usize::MAX, self.dab(at, data.volume.grid()));
-        let mut edits = match session.document.get(&KeyPath::from("object").item(object)) {
-            Some(_) => Vec::new(),
-            None => new_object(session, object),
-        };
-        edits.extend(found.iter().map(|picked| dab(picked.world)));
-        session.edit(&format!("paint stroke {}", self.strokes), edits);
+        let is_of_document = part.document == session.document_number();
+        if let Some(stroke) = part.stroke.filter(|_| is_of_document && !found.is_empty()) {
+            append(session, &stroke, &found, part.data.volume.grid());
+        }
     }
+}
 
-    /// A dab as the scene writes it.
-    fn dab(&self, at: DVec3, grid: &Grid) -> InlineTable {
-        InlineTable::from_iter([
-            ("at", place(at, grid)),
-            ("radius", format!("{} voxels", rounded(self.radius, 1)).into()),
-            ("brush", self.shape.into()),
-            ("mode", if self.is_erasing { "subtract" } else { "add" }.into()),
-        ])
-    }
+/// Appends the dabs of a stroke to its object. They are dropped if the object is gone, or is not painted any more.
+fn append(session: &mut Session, stroke: &OpenStroke, found: &[Picked], grid: &Grid) {
+    let Some(scene) = session.scene.clone() else { return };
+    let index = scene.objects.iter().position(|object| object.name == stroke.object);
+    let strokes = KeyPath::from("object").item(index.unwrap_or(scene.objects.len())).name("strokes");
+    let mut edits = match index {
+        Some(_) if session.document.get(&strokes).is_some() => Vec::new(),
+        None if stroke.makes_object => new_object(session, &scene, &stroke.object),
+        _ => return,
+    };
+    edits.extend(found.iter().map(|picked| {
+        let mut dab = InlineTable::from_iter([("at", voxel(picked, grid))]);
+        dab.extend(stroke.dab.clone());
+        Edit::Insert(strokes.clone(), usize::MAX, dab)
+    }));
+    session.edit(&stroke.label, edits);
+}
+
+/// The middle of the voxel about which a brush at a picked place is centred: the nearest one, and of two the one with the
+/// lower index. Written so, no rounding of the place leads to another voxel.
+fn voxel(picked: &Picked, grid: &Grid) -> Value {
+    place(grid.to_world((picked.index - 0.5).ceil()), grid)
 }

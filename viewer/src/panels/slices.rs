@@ -43,7 +43,7 @@ impl Panel for SlicesPanel {
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {
-        let Some(data) = session.data.clone() else {
+        let Some(data) = session.data().cloned() else {
             ui.weak("The volume is being read.");
             return;
         };

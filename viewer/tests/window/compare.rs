@@ -19,7 +19,7 @@ fn a_comparison_tells_what_the_command_tells() {
     let session = &viewer(&window).session;
     let scene = reduced(session.scene.as_ref().unwrap(), 64);
     let card = session.card.clone().unwrap();
-    let direct = compare(scene, session.data.as_ref().unwrap().volume.clone(), &card).unwrap();
+    let direct = compare(scene, session.data().unwrap().volume.clone(), &card).unwrap();
     let bounded = direct.found.bounded.as_ref().unwrap();
     assert!(bounded.measured > 0.0 && bounded.measured <= bounded.bound && direct.found.parts_at.is_none());
     assert_eq!(direct.difference.size, [64, 48]);

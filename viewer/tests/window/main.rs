@@ -1,6 +1,7 @@
 //! The window on software Vulkan: what a user does, and what the document and the picture are afterwards.
 
 mod compare;
+mod late;
 mod objects;
 mod places;
 
@@ -221,7 +222,7 @@ fn a_node_is_dragged_over_the_histogram() {
     let first = pixels(&window);
     let plot = window.get_by_label("Transfer function").rect();
     // The nodes are where the panel's bounds put them: the volume's range with 3 % beside it, and 0.05 below and 0.08 above.
-    let data = viewer(&window).session.data.clone().unwrap();
+    let data = viewer(&window).session.data().cloned().unwrap();
     let [lo, hi] = data.volume.range();
     let pad = 0.03 * (hi - lo);
     let place = |at: f64, opacity: f64| {

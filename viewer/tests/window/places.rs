@@ -97,7 +97,7 @@ fn picture_and_slices_share_the_cross_hair() {
 
     window.get_by_label("Slices").click();
     window.run_steps(3);
-    let data = viewer(&window).session.data.clone().unwrap();
+    let data = viewer(&window).session.data().cloned().unwrap();
     // From below x falls to the right, and y falls down.
     let axial = window.get_by_label("Axial slice").rect();
     let (pixel, k) = ([15, 6], cross.z.round() as usize);
