@@ -29,6 +29,7 @@ pub mod document;
 pub mod edit;
 pub mod export;
 pub mod focus;
+mod following;
 pub mod frames;
 pub mod gallery;
 pub mod history;

@@ -2,6 +2,7 @@
 
 use crate::camera::Pose;
 use crate::document::{Document, Edit};
+use crate::following;
 use crate::frames::{Answer, Prepared, Request, VolumeData, Worker};
 use crate::key::KeyPath;
 use crate::probe::{PixelQuery, PixelReport, Prober};
@@ -230,11 +231,31 @@ impl Session {
     /// Moves the camera.
     pub fn move_camera(&mut self, label: &str, to: impl FnOnce(&Pose) -> Pose) {
         if let (Some(from), Some(scene)) = (self.pose(), self.scene.clone()) {
-            self.edit(label, to(&from).edits(&scene.camera, &from));
-            // A second move in the same pass of the window starts where this one ends.
-            if let Ok(scene) = self.document.scene() {
-                self.scene = Some(Arc::new(scene));
+            self.edit_camera(label, to(&from).edits(&scene.camera, &from));
+        }
+    }
+
+    /// Makes edits of `[camera]`, and those of the selections that follow it ([VS-9]).
+    pub fn edit_camera(&mut self, label: &str, edits: Vec<Edit>) {
+        let before = self.scene.clone().zip(self.pose());
+        self.edit(label, edits);
+        self.read();
+        // V' is that of the numbers in the text.
+        if let (Some((scene, from)), Some(now)) = (before, self.pose())
+            && now.view != from.view
+        {
+            let following = following::edits(&scene, &self.boxes, [&from.view, &now.view]);
+            if !following.is_empty() {
+                self.edit(label, following);
+                self.read();
             }
+        }
+    }
+
+    /// Reads the scene, so that a second move in the same pass of the window starts where the one before ends.
+    fn read(&mut self) {
+        if let Ok(scene) = self.document.scene() {
+            self.scene = Some(Arc::new(scene));
         }
     }
 

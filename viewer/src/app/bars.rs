@@ -71,7 +71,7 @@ impl Viewer {
             ui.horizontal(|ui| {
                 if ui.button(&view.name).clicked() {
                     let edits = view.edits(&self.session.document);
-                    self.session.edit("take a saved view", edits);
+                    self.session.edit_camera("take a saved view", edits);
                     ui.close();
                 }
                 if ui.small_button("×").on_hover_text(format!("Forget {}", view.name)).clicked() {

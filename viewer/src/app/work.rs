@@ -54,7 +54,7 @@ impl Viewer {
                     let whole = Camera { eye: None, target: None, ..scene.camera.clone() };
                     let mut edits = pose.edits(&whole, &pose);
                     edits.extend(["camera.eye", "camera.target", "camera.height"].map(Edit::remove));
-                    session.edit("show the whole volume", edits);
+                    session.edit_camera("show the whole volume", edits);
                 }
             }
             Action::Turn(right, up) => {
@@ -76,7 +76,7 @@ impl Viewer {
                 let (name, other) = if is_parallel { ("perspective", "height") } else { ("orthographic", "fov") };
                 let edits =
                     vec![Edit::set("camera.projection", name), Edit::remove(format!("camera.{other}").as_str())];
-                session.edit("change the projection", edits);
+                session.edit_camera("change the projection", edits);
             }
             Action::Theme => {
                 self.state.is_dark = !self.state.is_dark;

@@ -4,8 +4,9 @@ use super::{SCENE, Window, click, drag, middle, pixels, press, settle, text, vie
 use drypoint::job::Job;
 use drypoint::picking::pick_pixel;
 use drypoint::scene::clip::ClipPlane;
-use drypoint::scene::glam::DVec3;
+use drypoint::scene::glam::{DAffine3, DVec3};
 use drypoint::scene::tables::{NodeColor, PaintMode, PaintStroke, PaintTarget};
+use drypoint::scene::view::View;
 use drypoint_viewer::app::Backend;
 use drypoint_viewer::document::Document;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Vec2};
@@ -157,6 +158,45 @@ fn an_object_is_moved_by_its_handle() {
     press(&mut window, Key::Z, Modifiers::COMMAND);
     press(&mut window, Key::Z, Modifiers::COMMAND);
     assert_eq!(text(&window), scene);
+}
+
+/// A selection that is decoupled stays before the eye while keys turn, pan and scale the view: V'M' = VM. One that is pinned
+/// keeps its pixel and its depth, and one that is integrated its motion. A turn is undone as a whole.
+#[test]
+fn selections_follow_the_camera() {
+    let objects = ["decoupled", "pinned", "integrated"].map(|state| {
+        let select = "value = [[140, 0], [141, 1]]\nmove = [1, 2, 3] # up\nrotate = { axis = [1, 0, 0], angle = 30 }";
+        format!("[[object]]\nname = \"{state}\"\ninteraction = \"{state}\"\n{select}\n")
+    });
+    let scene = format!("{SCENE}\n{}", objects.join("\n"));
+    let Some(mut window) = open(&scene, "Objects") else { return };
+    let centre = viewer(&window).session.boxes[0].unwrap().iter().sum::<DVec3>() / 8.0;
+    let state = |window: &Window| {
+        let session = &viewer(window).session;
+        let motions =
+            session.document.scene().unwrap().objects.iter().map(|object| object.motion.map(centre)).collect();
+        (session.pose().unwrap().view, motions)
+    };
+    let (before, motions): (View, Vec<DAffine3>) = state(&window);
+    for key in [Key::ArrowLeft, Key::ArrowUp, Key::ArrowLeft, Key::PageUp] {
+        press(&mut window, key, Modifiers::NONE);
+    }
+    settle(&mut window);
+    let (now, moved) = state(&window);
+    assert!(now.eye.distance(before.eye) > 1.0 && viewer(&window).session.failures.is_none());
+    let seen = |view: &View, motion: &DAffine3, p: DVec3| view.to_eye(motion.transform_point3(p));
+    for p in [centre, DVec3::ZERO, DVec3::new(30.0, -7.0, 4.0)] {
+        let off = seen(&now, &moved[0], p) - seen(&before, &motions[0], p);
+        assert!(off.length() < 1e-9, "{off}");
+    }
+    let off = seen(&now, &moved[1], centre) - seen(&before, &motions[1], centre);
+    assert!(off.length() < 1e-9 && moved[1].matrix3.abs_diff_eq(motions[1].matrix3, 1e-12), "{off}");
+    assert_eq!(moved[2], motions[2]);
+    assert_eq!(text(&window).matches("matrix = [[").count(), 2, "{}", text(&window));
+    while viewer(&window).session.document.text() != scene {
+        assert!(text(&window).contains("matrix = [["), "{}", text(&window));
+        press(&mut window, Key::Z, Modifiers::COMMAND);
+    }
 }
 
 /// A box that cuts is added as large as the volume, and a handle moves one of its sides.
