@@ -16,6 +16,7 @@ mod pages;
 mod painting;
 mod pictures;
 mod reference;
+mod results;
 mod rings;
 mod rules;
 mod stability;

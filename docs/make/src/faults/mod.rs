@@ -7,6 +7,7 @@ mod scenes;
 mod table;
 
 use crate::files;
+use crate::results::Results;
 use drypoint::Failure;
 use drypoint::gpu::{Gpu, GpuJob, Interpolation, Precision};
 use drypoint::job::Job;
@@ -22,29 +23,33 @@ use std::path::Path;
 /// Pixels across and down of the pictures.
 const SIZE: [usize; 2] = [24, 24];
 
-/// Plants all faults and writes the page. With the beginning of a module's path as a further argument only faults of such
-/// modules are planted, and nothing is written.
+/// Plants the faults that have no outcome yet, and writes the page once all have one. Each outcome is kept at once
+/// ([`Results`]), so that a run may be ended at any time. Words after the command select faults that are planted anew, by a
+/// part of `MODULE.wgsl:LINE:COLUMN: TEXT`.
 ///
 /// # Errors
 /// No adapter in f64, a scene that does not load or that notices what is no fault, a fault that no scene notices.
 pub(crate) fn write() -> Result<(), String> {
     let gpu = drypoint::gpu::open(Interpolation::Exact).map_err(|failure| failure.to_string())?;
-    let (jobs, only) = (jobs()?, std::env::args().nth(2));
+    let (jobs, mut results) = (jobs()?, Results::open(&gpu, "planted-faults")?);
     let scenes = scenes(&jobs, &gpu)?;
     let all = multiplications()?;
     let mut page = Page { wrong: may_be_off::unused(&all).collect(), ..Page::default() };
-    for fault in all.iter().filter(|fault| only.as_ref().is_none_or(|only| fault.module.starts_with(only))) {
-        let outcome = outcome(fault, &scenes, &gpu)?;
+    for fault in &all {
         let place = format!("{}.wgsl:{}:{}: {}", fault.module, fault.line, fault.column + 1, fault.text);
-        if outcome != Outcome::Integers {
-            println!("{place}\n    {outcome:?}");
+        let find = || Ok(Some(outcome(fault, &scenes, &gpu)?.cells()));
+        if let Some(outcome) = results.of(&place, &find)?.as_deref().and_then(Outcome::of) {
+            page.add(fault, outcome, &place);
         }
-        page.add(fault, outcome, &place);
     }
     if !page.wrong.is_empty() {
         return Err(page.wrong.join("\n"));
     }
-    if only.is_some() { Ok(()) } else { files::write("planted-faults.md", page.text(jobs.len()).as_bytes()) }
+    if results.missing > 0 {
+        println!("The page waits for {} faults that were not planted.", results.missing);
+        return Ok(());
+    }
+    files::write("planted-faults.md", page.text(jobs.len()).as_bytes())
 }
 
 fn multiplications() -> Result<Vec<Multiplication>, String> {
@@ -58,27 +63,52 @@ enum Outcome {
     /// The numbers are integers, which take no factor.
     Integers,
     /// The scene that notices the fault.
-    Noticed(&'static str),
+    Noticed(String),
     /// No scene need notice it, and why.
-    MayBeOff(&'static str),
+    MayBeOff(String),
     /// No scene notices it.
     Unnoticed,
     /// No scene has the function.
     Absent,
 }
 
+impl Outcome {
+    fn cells(self) -> Vec<String> {
+        match self {
+            Self::Integers => vec!["integers".into()],
+            Self::Noticed(scene) => vec!["noticed".into(), scene],
+            Self::MayBeOff(reason) => vec!["may be off".into(), reason],
+            Self::Unnoticed => vec!["unnoticed".into()],
+            Self::Absent => vec!["absent".into()],
+        }
+    }
+
+    fn of(cells: &[String]) -> Option<Self> {
+        let (kind, words) = cells.split_first()?;
+        let words = words.concat();
+        Some(match kind.as_str() {
+            "integers" => Self::Integers,
+            "noticed" => Self::Noticed(words),
+            "may be off" => Self::MayBeOff(words),
+            "unnoticed" => Self::Unnoticed,
+            "absent" => Self::Absent,
+            _ => return None,
+        })
+    }
+}
+
 /// Plants a fault of an elementary function in their table, and any other in one scene after another, until one notices it.
 fn outcome(fault: &Multiplication, scenes: &[Scene<'_>], gpu: &Gpu) -> Result<Outcome, String> {
     if let Some(reason) = may_be_off::reason(fault) {
-        return Ok(Outcome::MayBeOff(reason));
+        return Ok(Outcome::MayBeOff(reason.into()));
     }
     if let Some(is_noticed) = table::notices(fault, gpu).map_err(|error| error.to_string())? {
-        return Ok(if is_noticed { Outcome::Noticed(table::NAME) } else { Outcome::Unnoticed });
+        return Ok(if is_noticed { Outcome::Noticed(table::NAME.into()) } else { Outcome::Unnoticed });
     }
     let mut outcome = Outcome::Absent;
     for scene in scenes.iter().filter(|scene| fault.is_in(&scene.text)) {
         match scene.notices(fault) {
-            Ok(true) => return Ok(Outcome::Noticed(scene.name)),
+            Ok(true) => return Ok(Outcome::Noticed(scene.name.into())),
             Ok(false) => outcome = Outcome::Unnoticed,
             Err(failure) if is_about_types(&failure) => return Ok(Outcome::Integers),
             Err(failure) => return Err(format!("{}, {}: {failure}", scene.name, fault.text)),

@@ -1,6 +1,6 @@
 //! Every scene of the project on a graphics card, small.
 
-use super::results::Results;
+use crate::results::Results;
 use drypoint::gpu::Gpu;
 use drypoint::job::Job;
 use drypoint::scene::file::{Overrides, load};

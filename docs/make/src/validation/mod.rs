@@ -1,7 +1,6 @@
 //! `docs/validation.md`: graphics cards against the reference, effect by effect.
 
 mod every_scene;
-mod results;
 pub(crate) mod scenes;
 
 use crate::{files, labels};
@@ -10,7 +9,6 @@ use drypoint::job::Job;
 use drypoint::reference::number::Decision;
 use drypoint::scene::file::{Overrides, parse};
 use drypoint::validate::{SAME, Validation, Verdict, validate};
-use results::Results;
 use std::fmt::Write;
 
 /// Pixels across and down of the pictures.
@@ -23,7 +21,7 @@ const SIZE: [usize; 2] = [320, 240];
 /// No adapter, a scene that does not load, and a comparison that fails.
 pub(crate) fn write() -> Result<(), String> {
     let gpu = drypoint::gpu::open(drypoint::gpu::Interpolation::Exact).map_err(|failure| failure.to_string())?;
-    let mut results = Results::open(&gpu, std::env::args().skip(2).collect())?;
+    let mut results = Results::open(&gpu, "validation")?;
     let (mut algorithm, mut bounds) = (String::new(), String::new());
     for (name, more) in scenes::SCENES {
         let compare = || {

@@ -1,5 +1,4 @@
-//! Results of scenes that are compared already, so that the page is made in pieces: a run that ends early is continued by
-//! the next.
+//! Results that a page is made of, found one by one: a run that ends early is continued by the next.
 
 use crate::files::in_docs;
 use drypoint::gpu::Gpu;
@@ -8,43 +7,44 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// The cells of each scene, of one adapter and one build of this program.
-pub(super) struct Results {
+/// The cells of each result, of one adapter and one build of this program.
+pub(crate) struct Results {
     place: PathBuf,
     /// The adapter and a hash of this program.
     made_by: String,
     cells: BTreeMap<String, Vec<String>>,
-    /// Words of names that are compared anew; none: those that have no cells.
+    /// Words of names that are found anew; none: those that have no cells.
     asked: Vec<String>,
-    /// Scenes that were not asked for and have no cells.
-    pub(super) missing: usize,
+    /// How many were not asked for and have no cells.
+    pub(crate) missing: usize,
 }
 
 impl Results {
-    /// Reads what earlier runs found. Results of another adapter or another build do not count.
+    /// Reads what earlier runs found for a page. Results of another adapter or another build do not count.
     ///
     /// # Errors
     /// The system's failure to read this program.
-    pub(super) fn open(gpu: &Gpu, asked: Vec<String>) -> Result<Self, String> {
+    pub(crate) fn open(gpu: &Gpu, page: &str) -> Result<Self, String> {
         let program = std::env::current_exe().and_then(std::fs::read).map_err(|e| e.to_string())?;
         let hash: String = Sha256::digest(&program).iter().take(8).map(|byte| format!("{byte:02x}")).collect();
         let made_by = format!("{}, {hash}", gpu.describe());
-        let place = in_docs("../target/validation.txt");
+        let place = in_docs(&format!("../target/{page}.txt"));
         let before = std::fs::read_to_string(&place).unwrap_or_default();
         let kept = before.strip_prefix(&*made_by).unwrap_or_default();
         let cells = kept.lines().filter_map(|line| serde_json::from_str(line).ok()).collect();
+        let asked = std::env::args().skip(2).collect();
         Ok(Self { place, made_by, cells, asked, missing: 0 })
     }
 
-    /// Returns the cells of a scene: those of an earlier run, or those that `compare` finds, which are kept at once. None
-    /// if it finds none, or if the scene was neither asked for nor compared before.
+    /// Returns the cells of a name: those of an earlier run, or those that `find` finds, which are kept at once. None if it
+    /// finds none, or if the name was neither asked for nor found before.
     ///
     /// # Errors
-    /// Those of `compare`, and the system's failure to write.
-    pub(super) fn of(
+    /// Those of `find`, and the system's failure to write.
+    pub(crate) fn of(
         &mut self,
         name: &str,
-        compare: &dyn Fn() -> Result<Option<Vec<String>>, String>,
+        find: &dyn Fn() -> Result<Option<Vec<String>>, String>,
     ) -> Result<Option<Vec<String>>, String> {
         let kept = self.cells.get(name);
         let due = if self.asked.is_empty() {
@@ -57,7 +57,7 @@ impl Results {
             return Ok(kept.cloned());
         }
         let begin = Instant::now();
-        let found = compare()?;
+        let found = find()?;
         if let Some(cells) = &found {
             println!("{:>8.1} s {name}: {}", begin.elapsed().as_secs_f64(), cells.join(" | "));
             self.cells.insert(name.into(), cells.clone());
