@@ -54,9 +54,9 @@ const FILES: &[(&str, &str, &str)] = &[
     ("surface.png", "render surface.toml", "47900a6245a86baf78ffb631b586d3009df2ca16f46cc1f06f316ecd9f253fac"),
     ("stipples.svg", "points stipples.toml", "0d2de84835cc79f51db6b70057ad763963919d7ab6b59f14142f544c5d910319"),
     ("stipples.csv", "points stipples.toml", "e898c543bd9685d69982ed67389b58b7e4e52befd0d0d58e9254b68e91fc07c6"),
-    ("strokes.svg", "strokes strokes.toml", "7cc4afa17539119adf1d5e73c830e5e8160761f85757427e179ce7f410299bcb"),
-    ("strokes.pdf", "strokes strokes.toml", "00e3e733672561bf229299ca3631e344f6065ea4f60821ba046157a26bf2a188"),
-    ("strokes.png", "strokes strokes.toml", "66192c6aa6e0376384c6ad554b8ca1bf6e1112a865bc4b6a2d3a23ad07102a4b"),
+    ("strokes.svg", "strokes strokes.toml", "9dbdd481a6ec90d1bebc4508651210c83fec74bac3ea9a5081016bf4e7fc7375"),
+    ("strokes.pdf", "strokes strokes.toml", "decef8e9fbf135fceb56744fa868ad117ede7845b47da5c8eeabae3a48f146ac"),
+    ("strokes.png", "strokes strokes.toml", "02c255faf0b3b9f047247e4cc294c488670996bcd14d11402528e71c2adeaa9d"),
     ("strokes.jsonl", "strokes strokes.toml", "596b5da7b0df44c5b896c1c6a88fe16c88a60acd019593a451c2f95cc0ab67a6"),
     (
         "phantom.nrrd",
