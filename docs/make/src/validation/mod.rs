@@ -3,6 +3,7 @@
 mod every_scene;
 pub(crate) mod scenes;
 
+use crate::results::Results;
 use crate::{files, labels};
 use drypoint::gpu::Gpu;
 use drypoint::job::Job;
