@@ -104,7 +104,7 @@ fn a_click_paints_a_new_object() {
     assert!(super::difference(&first, &pixels(&window)) > 0.002 && viewer(&window).session.failures.is_none());
 }
 
-/// What is painted has the look of the picture in another style of its theme, which may lack the usual one.
+/// A painted object has the look of the picture in another style of its theme, which may lack the usual one.
 #[test]
 fn a_new_object_has_a_style_of_the_theme() {
     let folder = tempfile::tempdir().unwrap();
