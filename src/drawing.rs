@@ -121,6 +121,20 @@ impl<'a> Drawing<'a> {
         }
     }
 
+    /// Turns to another camera, which sees the points and lines that were made for the job's camera.
+    ///
+    /// # Errors
+    /// The errors of [`Job::shot`].
+    pub fn turn(&mut self, view: View) -> Result<(), Failure> {
+        if self.job.moves_selections() {
+            self.prepared = None;
+        } else if self.draws_volume && self.shot.is_none() {
+            self.shot = Some(self.job.shot()?);
+        }
+        self.first = view;
+        Ok(())
+    }
+
     /// Returns the number of frames: those of `[orbit]`, or one.
     pub fn frames(&self) -> usize {
         self.orbit.map_or(1, |orbit| orbit.frames)

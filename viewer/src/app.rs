@@ -76,11 +76,9 @@ impl Viewer {
     pub fn new(ctx: &Context, render: Option<RenderState>, backend: Backend, document: Document, state: State) -> Self {
         let [drawing, comparing] =
             [backend, Backend::Card].map(|backend| render.as_ref().and_then(|render| card(render, backend)));
-        let waker = || -> Box<dyn Fn() + Send> {
-            let ctx = ctx.clone();
-            Box::new(move || ctx.request_repaint())
-        };
-        let (worker, prober) = (Worker::new(drawing, waker()), Prober::new(waker()));
+        let ctx_of_threads = ctx.clone();
+        let wake = move || ctx_of_threads.request_repaint();
+        let (worker, prober) = (Worker::new(drawing, wake.clone()), Prober::new(Box::new(wake)));
         let panels = panels::all();
         let tree = layout::tree(panels.len());
         let session = Session::new(document, Screen::new(render), comparing, worker, prober);

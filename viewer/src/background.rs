@@ -35,6 +35,11 @@ impl<Q: Send + 'static, A: Send + 'static> Background<Q, A> {
         self.mailbox.put(request);
     }
 
+    /// Returns the place of requests.
+    pub(crate) fn mailbox(&self) -> Arc<Mailbox<Q>> {
+        Arc::clone(&self.mailbox)
+    }
+
     /// Returns the answers since the last call.
     pub(crate) fn answers(&self) -> impl Iterator<Item = A> + '_ {
         self.answers.try_iter()

@@ -3,14 +3,16 @@
 //! A request is the scene as it stands. The newest request is drawn, and stops the one before it. A request that only
 //! moves the camera prepares nothing. While requests come quickly, frames are coarse if exact ones would take long.
 //!
-//! | the scene | with a card | without one |
+//! | the scene | while the camera moves | then |
 //! |---|---|---|
-//! | the volume alone | [`GpuFrames::show`](drypoint::frames::Frames::show) into a texture of the window's device | the reference, in pixels |
-//! | with points, lines or annotations | the volume while the camera moves, then [`Drawing`] | the same |
+//! | the volume alone | by a card into a texture of the window's device, or by the reference, in pixels | the same |
+//! | the volume with points, lines or annotations | the volume | the thread of `page.rs` |
+//! | points and lines alone | those that were made for the first camera | the thread of `page.rs` |
 
 use crate::background::{Background, Desk};
 use crate::canvas::{self, Canvas, Drawn, Pace, Pixels};
-use crate::mailbox::Mail;
+use crate::mailbox::{Mail, Mailbox};
+use crate::page::{PageRequest, pages};
 use crate::present::Presenter;
 use crate::slice::ValueColors;
 use drypoint::drawing::Drawing;
@@ -100,31 +102,37 @@ pub enum Answer {
     Failed(u64, Failures),
 }
 
-/// A handle of the thread, which ends when it is dropped.
-pub struct Worker(Background<Box<Request>, Answer>);
+/// A handle of the threads, which end when it is dropped.
+pub struct Worker {
+    frames: Background<Box<Request>, Answer>,
+    pages: Background<PageRequest, Answer>,
+}
 
 impl Worker {
-    /// Starts the thread. `wake` is called after each answer, on the thread.
-    pub fn new(card: Option<Gpu>, wake: Box<dyn Fn() + Send>) -> Self {
-        let card = card.map(Presenter::new);
-        let run = |desk| Artist { desk, card, on_card: None, data: None, pace: Pace::default() }.run();
-        Self(Background::new("frames", wake, run))
+    /// Starts the threads. `wake` is called after each answer, on a thread.
+    pub fn new(card: Option<Gpu>, wake: impl Fn() + Clone + Send + 'static) -> Self {
+        let pages = pages(card.clone(), Box::new(wake.clone()));
+        let (card, asked) = (card.map(Presenter::new), pages.mailbox());
+        let run = |desk| Artist { desk, pages: asked, card, on_card: None, data: None, pace: Pace::default() }.run();
+        Self { frames: Background::new("frames", Box::new(wake), run), pages }
     }
 
     /// Asks for frames of a scene, in place of all before.
     pub fn ask(&self, request: Request) {
-        self.0.ask(Box::new(request));
+        self.frames.ask(Box::new(request));
     }
 
     /// Returns the answers since the last call.
     pub fn answers(&self) -> impl Iterator<Item = Answer> + '_ {
-        self.0.answers()
+        self.frames.answers().chain(self.pages.answers())
     }
 }
 
 /// The thread's own state.
 struct Artist {
     desk: Desk<Box<Request>, Answer>,
+    /// Requests to the thread that draws with points, lines and annotations.
+    pages: Arc<Mailbox<PageRequest>>,
     card: Option<Presenter>,
     /// Frames on the card, which outlive the jobs that they were made from.
     on_card: Option<Box<GpuFrames>>,
@@ -176,10 +184,20 @@ impl Artist {
             .collect();
         let scene = Arc::new(job.scene.clone());
         self.desk.answer(Answer::Prepared(Prepared { revision: request.revision, scene, warnings, colors, boxes }));
-        // The job keeps the first camera.
+        // The job keeps the first camera, and so do points and lines alone.
+        let (gpu, mut counts) = (self.card.as_ref().map(|card| card.gpu().clone()), Counts::default());
+        let marking = canvas.is_none().then(|| Marking::new(job, &mut counts, &|_| ())).transpose()?;
+        let drawing = |marking| Drawing::on(job, marking, gpu.as_ref(), &mut counts);
+        let mut drawing = marking.as_ref().map(drawing).transpose()?;
         let mut is_turned = false;
         loop {
-            let next = match self.draw(job, &mut canvas, request, is_turned)? {
+            self.pages.interrupt();
+            let drawn = match (&mut canvas, &mut drawing) {
+                (Some(canvas), _) => self.draw(job, canvas, request)?,
+                (None, Some(drawing)) => self.sketch(job, drawing, request, is_turned)?,
+                (None, None) => Mail::Nothing,
+            };
+            let next = match drawn {
                 Mail::Nothing => self.desk.wait(),
                 Mail::Request(newer) => Some(newer),
                 Mail::Closed => None,
@@ -213,67 +231,65 @@ impl Artist {
 
     /// Draws a request: a coarse frame if an exact one takes long, then the exact one. Returns the mail that came before
     /// the end.
-    fn draw(
-        &mut self,
-        job: &Job,
-        canvas: &mut Option<Canvas<'_>>,
-        request: &Request,
-        is_turned: bool,
-    ) -> Result<Mail<Box<Request>>, Failure> {
+    fn draw(&mut self, job: &Job, canvas: &mut Canvas<'_>, request: &Request) -> Result<Mail<Box<Request>>, Failure> {
         let on_page = request.scene.draws_on_page();
-        if let Some(canvas) = canvas {
-            let divisors = self.pace.divisors(canvas.is_slow(self.card.as_ref()));
-            for (i, &divisor) in divisors.iter().enumerate() {
-                let is_coarse = divisor > NonZeroUsize::MIN;
-                let drawn = match canvas.turn(&shot(job, &request.scene.camera, divisor)?) {
-                    // Frames with funnels have one size on a card.
-                    Err(_) if is_coarse => continue,
-                    turned => turned.and_then(|()| canvas.draw(self.card.as_ref(), self.desk.mailbox.stop()))?,
-                };
-                if let Some(Drawn { size, pixels, seconds }) = drawn {
-                    self.pace.learn(divisor, seconds);
-                    let is_coarse = is_coarse || on_page;
-                    let frame = Frame { revision: request.revision, size, pixels, is_coarse, seconds };
-                    self.desk.answer(Answer::Drawn(frame));
-                }
-                if is_coarse || on_page {
-                    let rest = if i == 0 { REST } else { Duration::ZERO };
-                    match self.desk.mailbox.take(Some(rest)) {
-                        Mail::Nothing => {}
-                        mail => return Ok(mail),
-                    }
+        let divisors = self.pace.divisors(canvas.is_slow(self.card.as_ref()));
+        for (i, &divisor) in divisors.iter().enumerate() {
+            let is_coarse = divisor > NonZeroUsize::MIN;
+            let drawn = match canvas.turn(&shot(job, &request.scene.camera, divisor)?) {
+                // Frames with funnels have one size on a card.
+                Err(_) if is_coarse => continue,
+                turned => turned.and_then(|()| canvas.draw(self.card.as_ref(), self.desk.mailbox.stop()))?,
+            };
+            if let Some(Drawn { size, pixels, seconds }) = drawn {
+                self.pace.learn(divisor, seconds);
+                let is_coarse = is_coarse || on_page;
+                let frame = Frame { revision: request.revision, size, pixels, is_coarse, seconds };
+                self.desk.answer(Answer::Drawn(frame));
+            }
+            if is_coarse || on_page {
+                let rest = if i == 0 { REST } else { Duration::ZERO };
+                match self.desk.mailbox.take(Some(rest)) {
+                    Mail::Nothing => {}
+                    mail => return Ok(mail),
                 }
             }
         }
-        if on_page || canvas.is_none() {
-            self.draw_page(job, request, is_turned)?;
+        if on_page {
+            self.ask_page(job, request);
         }
         Ok(Mail::Nothing)
     }
 
-    /// Draws the volume with points, lines and annotations.
-    fn draw_page(&self, job: &Job, request: &Request, is_turned: bool) -> Result<(), Failure> {
+    /// Draws points and lines alone. They are those of the first camera, so a further one gets its own once it rests.
+    /// Returns the mail that came before the end.
+    fn sketch(
+        &self,
+        job: &Job,
+        drawing: &mut Drawing<'_>,
+        request: &Request,
+        is_turned: bool,
+    ) -> Result<Mail<Box<Request>>, Failure> {
         let start = Instant::now();
-        let turned = is_turned.then(|| {
-            let volume = self.data.as_ref().map_or(&job.volume, |data| &data.volume);
-            Job::with_volume_for(request.scene.clone(), Arc::clone(volume), RenderTarget::Picture, Arc::new(Disk))
-        });
-        let turned = match turned.transpose() {
-            Ok(turned) => turned,
-            Err(failures) => {
-                self.desk.answer(Answer::Failed(request.revision, failures));
-                return Ok(());
-            }
-        };
-        let (job, mut counts) = (turned.as_ref().unwrap_or(job), Counts::default());
-        let marking = Marking::new(job, &mut counts, &|_| ())?;
-        let card = self.card.as_ref().map(Presenter::gpu);
-        let mut drawing = Drawing::on(job, &marking, card, &mut counts)?;
-        let Some((frame, _)) = drawing.frame_until(0, &|_| (), self.desk.mailbox.stop())? else { return Ok(()) };
-        let (size, pixels) = canvas::codes(&frame.painted(job)?)?;
-        let seconds = start.elapsed().as_secs_f64();
-        self.desk.answer(Answer::Drawn(Frame { revision: request.revision, size, pixels, is_coarse: false, seconds }));
-        Ok(())
+        if is_turned {
+            drawing.turn(view(job, &request.scene.camera, job.scene.picture.size)?)?;
+        }
+        if let Some((frame, _)) = drawing.frame_until(0, &|_| (), self.desk.mailbox.stop())? {
+            let (size, pixels) = canvas::codes(&frame.painted(job)?)?;
+            let (revision, seconds) = (request.revision, start.elapsed().as_secs_f64());
+            self.desk.answer(Answer::Drawn(Frame { revision, size, pixels, is_coarse: is_turned, seconds }));
+        }
+        let mail = if is_turned { self.desk.mailbox.take(Some(REST)) } else { Mail::Nothing };
+        if is_turned && matches!(mail, Mail::Nothing) {
+            self.ask_page(job, request);
+        }
+        Ok(mail)
+    }
+
+    /// Asks for the exact frame with points, lines and annotations.
+    fn ask_page(&self, job: &Job, request: &Request) {
+        let volume = Arc::clone(self.data.as_ref().map_or(&job.volume, |data| &data.volume));
+        self.pages.put(PageRequest { revision: request.revision, scene: request.scene.clone(), volume });
     }
 }
 
@@ -311,7 +327,12 @@ pub(crate) fn only_turns(before: &Scene, after: &Scene) -> bool {
 /// Returns the shot of a job from another camera, with sides divided by `divisor`.
 pub(crate) fn shot(job: &Job, camera: &Camera, divisor: NonZeroUsize) -> Result<Shot, Failure> {
     let shot = if divisor == NonZeroUsize::MIN { job.shot() } else { job.coarse_shot(divisor) }?;
-    let view = View::new(camera, job.volume.grid(), shot.view.size);
-    let view = view.map_err(|error| Failure::new(error, "camera", "undo the last change"))?;
+    let view = view(job, camera, shot.view.size)?;
     Ok(shot.seen_from(view))
+}
+
+/// Returns the view of a camera on a job's volume, in a picture of a size.
+fn view(job: &Job, camera: &Camera, size: [usize; 2]) -> Result<View, Failure> {
+    let view = View::new(camera, job.volume.grid(), size);
+    view.map_err(|error| Failure::new(error, "camera", "undo the last change"))
 }

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | [`document`] | the scene file: its text, changes by key, undo, saving |
 //! | [`session`] | the document with its scene, its volume, its frame; what panels share |
-//! | [`frames`] | the thread that draws |
+//! | [`frames`] | the thread that draws, and follows the camera |
+//! | `page.rs` | the thread that draws exact frames with points and lines |
 //! | [`probe`] | the thread that tells what is seen at a pixel |
 //! | `brush.rs` | the thread that tells where a brush meets the volume |
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
@@ -36,6 +37,7 @@ pub mod history;
 pub mod key;
 mod mailbox;
 pub mod open;
+mod page;
 mod palette;
 pub mod panels;
 mod paths;

@@ -68,7 +68,12 @@ impl<T> Mailbox<T> {
         slot.newest.take().map_or(Mail::Nothing, Mail::Request)
     }
 
-    /// Returns a flag that becomes true once a newer request is there.
+    /// Stops the work on the request that was taken last.
+    pub(crate) fn interrupt(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Returns a flag that becomes true once a newer request is there, or the work is of no more use.
     pub(crate) fn stop(&self) -> &AtomicBool {
         &self.stop
     }

@@ -165,7 +165,10 @@ impl Session {
                     (self.prepared, self.warnings, self.colors) = (Some(scene), warnings, Some(colors));
                     self.boxes = boxes;
                 }
-                Answer::Drawn(frame) if frame.revision > self.first => {
+                // An exact frame with points and lines may come after frames of later scenes.
+                Answer::Drawn(frame)
+                    if frame.revision > self.first && self.shown.is_none_or(|shown| shown.serial <= frame.revision) =>
+                {
                     let (size, is_coarse, seconds, serial) =
                         (frame.size, frame.is_coarse, frame.seconds, frame.revision);
                     self.screen.show(ctx, frame);

@@ -70,6 +70,11 @@ fn ask(worker: &Worker, revision: u64, text: &str, longest: usize) -> Answers {
     }
 }
 
+/// A scene without the volume's own colours.
+fn drawn_alone(text: &str) -> String {
+    text.split("[transfer]").next().unwrap_or_default().to_owned()
+}
+
 /// Changes of the camera prepare nothing, changes of other keys keep the volume, and every frame is that of a fresh thread.
 #[test]
 fn what_is_drawn_depends_on_the_last_request_alone() {
@@ -77,9 +82,10 @@ fn what_is_drawn_depends_on_the_last_request_alone() {
     let clipped = format!("{turned}[[clip]]\nnormal = [1, 0, 0]\npoint = [12, 0, 0]\n");
     let labelled = format!("{SCENE}[scale_bar]\n");
     let turned_labelled = format!("{turned}[scale_bar]\n");
+    let [dots, turned_dots] = [SCENE, &turned].map(|text| format!("{}[stipples]\n", drawn_alone(text)));
     let other = SCENE.replace("size = 24", "size = 20");
     let lens = SCENE.replace("direction", "fov = 20\ndirection");
-    let worker = Worker::new(None, Box::new(|| ()));
+    let worker = Worker::new(None, || ());
     for (i, (text, loaded, prepared)) in [
         (&SCENE.to_owned(), 1, 1),
         (&turned, 0, 0),
@@ -88,6 +94,9 @@ fn what_is_drawn_depends_on_the_last_request_alone() {
         (&clipped, 0, 1),
         (&labelled, 0, 1),
         (&turned_labelled, 0, 0),
+        (&dots, 0, 1),
+        (&turned_dots, 0, 0),
+        (&dots, 0, 0),
         (&other, 1, 1),
     ]
     .into_iter()
@@ -95,9 +104,11 @@ fn what_is_drawn_depends_on_the_last_request_alone() {
     {
         let drawn = ask(&worker, i as u64, text, 1000);
         assert_eq!([drawn.loaded, drawn.prepared], [loaded, prepared], "{text}");
-        let fresh = ask(&Worker::new(None, Box::new(|| ())), 0, text, 1000);
+        let fresh = ask(&Worker::new(None, || ()), 0, text, 1000);
         assert!(drawn.bytes == fresh.bytes && !drawn.bytes.is_empty() && drawn.failed.is_none(), "{text}");
         assert_eq!(drawn.size, [60, 45]);
+        // Dots turn at once, and get their exact number then.
+        assert!(drawn.coarse > 0 || !text.contains("[stipples]") || prepared > 0, "{text}");
     }
     // A window with fewer pixels gets a smaller picture of the same shape.
     assert_eq!(ask(&worker, 9, SCENE, 20).size, [20, 15]);
@@ -110,7 +121,7 @@ fn a_card_compiles_nothing_for_a_turn() {
         assert!(std::env::var_os("DRYPOINT_REQUIRE_GPU").is_none(), "no adapter");
         return println!("skipped: no adapter");
     };
-    let worker = Worker::new(Some(gpu.clone()), Box::new(|| ()));
+    let worker = Worker::new(Some(gpu.clone()), || ());
     ask(&worker, 0, SCENE, 1000);
     let compiled = gpu.pipelines();
     for (i, text) in [SCENE.replace("[1, 2, -3]", "[-3, 1, 1]"), SCENE.replace("150", "160")].iter().enumerate() {
@@ -123,7 +134,7 @@ fn a_card_compiles_nothing_for_a_turn() {
 /// After a scene that cannot be drawn the next one is drawn.
 #[test]
 fn a_failure_ends_with_the_next_request() {
-    let worker = Worker::new(None, Box::new(|| ()));
+    let worker = Worker::new(None, || ());
     let missing = SCENE.replace("phantom = { name = \"torus\", size = 24 }", "file = \"none.nrrd\"");
     let failed = ask(&worker, 1, &missing, 1000).failed.unwrap();
     assert!(failed.contains("none.nrrd"), "{failed}");
@@ -141,7 +152,7 @@ fn blind() -> String {
 /// A failure after a turn is that of the turned scene: `ask` compares the revisions.
 #[test]
 fn a_turn_that_fails_is_told_by_its_own_revision() {
-    let worker = Worker::new(None, Box::new(|| ()));
+    let worker = Worker::new(None, || ());
     assert!(ask(&worker, 1, SCENE, 1000).failed.is_none());
     let failed = ask(&worker, 2, &blind(), 1000).failed.unwrap();
     assert!(failed.contains("direction"), "{failed}");
@@ -170,7 +181,7 @@ fn a_turn_that_fails_is_told_by_its_own_revision() {
 fn a_picture_with_places_at_pixels_keeps_its_size() {
     let object = "[[object]]\nname = \"spot\"\ntransfer = { kind = \"regular\", nodes = [{ at = 120, color = \"#0000ff\", \
         opacity = 0.9 }] }\n";
-    let worker = Worker::new(None, Box::new(|| ()));
+    let worker = Worker::new(None, || ());
     for (target, size) in [("pixel = [30, 30]", [60, 45]), ("at = [11.5, 5, 11.5]", [20, 15])] {
         let text = format!("{SCENE}{object}strokes = [{{ {target}, radius = \"4 voxels\", brush = \"ball\" }}]\n");
         let [whole, reduced] = [1000, 20].map(|longest| ask(&worker, 1, &text, longest));
