@@ -56,6 +56,25 @@ fn a_lost_device_is_an_error() {
     assert_eq!(frame(&job, &crate::gpu().unwrap()).unwrap(), before);
 }
 
+/// A driver may end all loops of a shader that looped too often, without a word. Then there is an error, and no
+/// picture of rays that end where nothing is.
+#[test]
+fn a_driver_that_ends_loops() {
+    let Some(gpu) = gpu() else { return };
+    let (alone, _) = SCENE.split_once("[transfer]").unwrap_or_default();
+    let many = "samples = 24\nlayers = [\"beauty\", \"depth\"]";
+    let many = alone.replace("samples = 1", many).replace("[64, 48]", "[16, 12]");
+    let job = job_of(&format!("{many}[shading]\n[surface]\niso = 120\n[sampling]\nkernel = \"bspline-smooth\"\n"));
+    match frame(&job, &gpu) {
+        Err(failure) => assert!(gpu.is_software() && failure.contains("ended rays"), "{failure}"),
+        Ok(picture) => {
+            let (truth, _) = job.renderer().unwrap_or_else(|failure| panic!("{failure}")).frame(&|_| ());
+            let [drawn, truth] = [&picture, &truth].map(|picture| picture.layers[0].channels.concat());
+            assert!(drawn.iter().zip(truth).all(|(a, b)| (a - b).abs() < 1e-3));
+        }
+    }
+}
+
 /// Without f64 bounds alone prove a picture, and nothing is proven where there are none.
 #[test]
 fn a_device_without_double_numbers() {

@@ -67,7 +67,7 @@ fn draw_refined(pixel: vec2<i32>) {
     }
     let out = place_of(pixel);
     write_channels(out, sum / real(rays));
-    if (is_unfinished || first.r <= UNFINISHED) {
+    if (is_unfinished || first.r <= UNFINISHED || has_ended_loops()) {
         picture[out] = UNFINISHED;
     }
 }

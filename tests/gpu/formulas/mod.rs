@@ -180,6 +180,7 @@ const HELD_BY_PICTURES: &[&str] = &[
     "halo_planes",
     "halo_spread",
     "halo_start",
+    "has_ended_loops",
     "has_line_before",
     "has_normal",
     "has_sample",
