@@ -5,7 +5,10 @@ use super::planting::Multiplication;
 const SERIES: &str = "a last term of a series: 1 % of it is below eight last places of f64";
 const GUARD: &str = "a margin against rounding: a box that is passed closely counts as met, and its triangle decides";
 
+const PLACE: &str = "a place in a list, of integers, when a picture is shown in a window";
 const SKIPPED: &str = "fewer planes are passed over, and those between show nothing";
+const ALIKE: &str = "all weights grow alike, and their sums are only compared with each other";
+const CLEAR: &str = "guards a division: a set is there only where one of its objects has an opacity";
 const SEARCH: &str = "another step to the same root";
 const EXTREMA: &str = "parts of a cubic end beside its extrema: only two roots that all but touch lie in one part";
 const GUESS: &str = "a first cell, from which the right one is found step by step";
@@ -30,6 +33,8 @@ const MAY_BE_OFF: &[(&str, &str, &str)] = &[
     ("number/math", "sum * r + 1.0 / 39916800.0", SERIES),
     ("number/math", "y * LOG2_E", "the range is reduced by another whole number, and the rest makes up for it"),
     ("ray/brick_occupancy", "ray.along * ray", SKIPPED),
+    ("ray/present", "pixel.y * size.x", PLACE),
+    ("ray/present", ") * CHANNELS", PLACE),
     ("surface/cubic", "2.0 * d1 + d2", EXTREMA),
     ("surface/cubic", "d1 * d1 - d0", EXTREMA),
     ("surface/cubic", "d0 * d2", EXTREMA),
@@ -43,12 +48,15 @@ const MAY_BE_OFF: &[(&str, &str, &str)] = &[
     ("surface/first_root_stepped", "before * side_of", SIGN),
     ("surface/first_root_trilinear", "before * side_of", SIGN),
     ("surface/traversal", "walk.along[a] * enters.t", GUESS),
+    ("transfer/over/labels_smooth", "w.x * w.y", ALIKE),
+    ("transfer/over/labels_smooth", "w.y * w.z", ALIKE),
     ("volume_stippling/hidden", "line.along * t", DOTS),
     ("volume_stippling/hidden", "voxel_x() * n.x", DOTS),
     ("volume_stippling/hidden", "voxel_y() * n.y", DOTS),
     ("volume_stippling/hidden", "voxel_z() * n.z", DOTS),
     ("volume_stippling/hidden", "voxel_along(out) * params", DOTS),
     ("volume_stippling/hidden_clipped", "line.along * kept", DOTS),
+    ("volumeshop/sets_fractions", "mu * 0.5", CLEAR),
     ("volumetric_halos/direction", "n.x * n.x + n.y", BESIDE),
     ("volumetric_halos/direction", "n.y * n.y) <=", BESIDE),
     ("volumetric_halos/seed_bricks", "ray.along[axis] * ray", SKIPPED),

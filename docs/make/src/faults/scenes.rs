@@ -63,19 +63,25 @@ const FURTHER: &[(&str, Keys, &str)] = &[
     (
         "a cap",
         &[],
-        "[shading]\n[[clip]]\npoint = [23, 23, 23]\nnormal = [0.1, -1, 0.2]\nspace = \"index\"\ncap = \"#ff3010c0\"\n",
+        "[shading]\n[[clip]]\npoint = [23, 23, 23]\nnormal = [-0.1, 1, -0.2]\nspace = \"index\"\ncap = \"#ff3010c0\"\n",
     ),
     ("styles in the frame of the view", &[("transfer.sphere_frame", "view")], ""),
     (
-        "styles with a cut",
-        &[],
-        "[[clip]]\npoint = [23, 23, 23]\nnormal = [0.1, -1, 0.2]\nspace = \"index\"\nstyle = \"glass\"\n",
+        "styles that are seen through, with a cut",
+        &[("styles.wax", "FOLDER/veil.png")],
+        "[[clip]]\npoint = [23, 23, 23]\nnormal = [-0.1, 1, -0.2]\nspace = \"index\"\nstyle = \"wax\"\n",
     ),
     ("contours that fade", &[], "[contours]\nthickness = \"1.5 voxels\"\nfade = [0.2, 0.8]\n"),
+    (
+        "mip-maps with a cut, in wide steps",
+        &[("sampling.step", "6 voxels"), ("styles.wax", "FOLDER/veil.png")],
+        "[style_mipmaps]\n[[clip]]\npoint = [23, 23, 23]\nnormal = [-0.1, 1, -0.2]\nspace = \"index\"\n",
+    ),
     ("mip-maps with biases", &[], "[contours]\n[style_mipmaps]\ngradient_bias = 3\ncurvature_bias = 4\n"),
     // Two quantities.
     ("over value and label", LABELS, ROWS_OF_LABELS),
     ("over value and smooth label", SMOOTH_LABELS, ROWS_OF_LABELS),
+    ("over value and a volume with holes", &[("volume", "{ file = \"FOLDER/block.nrrd\" }")], ROWS_OF_HOLES),
     ("over label and value", LABELS, ROWS_ALONG_LABELS),
     ("over value and volume", &[], ROWS_OF_VOLUME),
     // Iso-surfaces, meshes and lines.
@@ -192,7 +198,7 @@ const FURTHER: &[(&str, Keys, &str)] = &[
     ),
     ("coverage of parts", &[("picture.layers", "[\"beauty\", \"part0\", \"part1\", \"part2\"]")], COVERING),
     // Halos.
-    ("a halo", &[], "[shading]\n[[halo]]\n"),
+    ("a halo of medians, with a floor", &[], "[shading]\n[[halo]]\nfloor = 0.1\nspread.median = true\n"),
     ("halos of both kinds", &[("picture.layers", "[\"beauty\", \"halo0\", \"depth\"]")], HALOS),
     (
         "halos by focus and direction",
@@ -200,11 +206,7 @@ const FURTHER: &[(&str, Keys, &str)] = &[
         "[shading]\n[[halo]]\nseed.direction = { toward = 120, width = 90, softness = 40 }\n[[halo]]\nkind = \"emissive\"\n\
          seed.focus = { at = [[20, 10, 15], [30, 20, 20]], inner = 4, falloff = 18 }\n",
     ),
-    (
-        "halos by value",
-        &[],
-        "[shading]\n[[halo]]\nseed.value = [[100, 0], [128, 1], [140, 0]]\nfloor = 0.1\nspread.median = true\nexponents = [0.2, 2]\n",
-    ),
+    ("halos by value", &[], "[shading]\n[[halo]]\nseed.value = [[100, 0], [128, 1], [140, 0]]\n"),
     ("contours under a halo", &[], "[contours]\n[[halo]]\nseed = { by = \"curvature\", thickness = \"2 voxels\" }\n"),
 ];
 
@@ -232,9 +234,13 @@ const ROWS_OF_VOLUME: &str = "over = [\"value\", { volume = \"block.nrrd\" }]\nr
   { at = 100, nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.4 }] },
   { at = 140, nodes = [{ at = 90, color = \"#3366cc\", opacity = 0 }, { at = 120, color = \"#88ccff\", opacity = 0.5 }] },
 ]\n";
+const ROWS_OF_HOLES: &str = "over = [\"value\", { volume = \"holes.nrrd\" }]\nrows = [
+  { at = 100, nodes = [{ at = 100, color = \"#804020\", opacity = 0 }, { at = 128, color = \"#ffcc88\", opacity = 0.4 }] },
+  { at = 140, nodes = [{ at = 90, color = \"#3366cc\", opacity = 0 }, { at = 120, color = \"#88ccff\", opacity = 0.5 }] },
+]\n";
 const PRESETS: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[110, 0], [134, 0.8]]\nmove = [3, -2, 2]\n\
-    [[intersection]]\nobject = \"half\"\nwith = \"ghost\"\nopacity = \"over\"\n\
-    [[intersection]]\nobject = \"half\"\nwith = \"background\"\nopacity = \"in\"\n";
+    [[intersection]]\nobject = \"half\"\nwith = \"ghost\"\nopacity = \"in\"\n\
+    [[intersection]]\nobject = \"half\"\nwith = \"background\"\nopacity = \"over\"\n";
 const FURTHER_PRESETS: &str = "[shading]\n[[object]]\nname = \"half\"\nvalue = [[110, 0], [134, 0.8]]\nmove = [3, -2, 2]\n\
     [[intersection]]\nobject = \"half\"\nwith = \"ghost\"\nopacity = \"xor\"\ncolor = \"#ff4010c0\"\n\
     [[intersection]]\nobject = \"half\"\nwith = \"background\"\nopacity = \"out\"\n";
@@ -248,7 +254,7 @@ const HALOS: &str = "[shading]\n[[halo]]\nname = \"rim\"\nkind = \"emissive\"\ns
     profile = [{ at = 0.1, color = \"white\", opacity = 0 }, { at = 0.3, color = \"white\" }]\n\
     [[halo]]\nexponents = [0.5, 3]\ntints = [\"rim\"]\nopacity = 0.5\nspread = { passes = 2, delta = 0.95, reach = \"31 %\" }\n\
     profile = [{ at = 0, color = \"red\", opacity = 0.1 }, { at = 0.5, color = \"blue\", opacity = 0.8 }]\n\
-    [[halo]]\nevery = 4\naccumulate = \"mean\"\n";
+    [[halo]]\nevery = 4\naccumulate = \"mean\"\nprofile = [{ at = 0, color = \"#209040\", opacity = 0 }, { at = 1, color = \"#209040\" }]\n";
 
 /// All scenes, after the files that they name have been written to a folder.
 ///
@@ -281,8 +287,19 @@ fn write_files(folder: &Path) -> std::io::Result<()> {
     for (name, has_normals) in [("ball.ply", false), ("smooth.ply", true)] {
         std::fs::write(folder.join(name), ball(has_normals))?;
     }
+    write_veil(&folder.join("veil.png"))?;
     let pictures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/pictures");
     std::fs::copy(pictures.join("halo-seeds.png"), folder.join("picture.png")).map(|_| ())
+}
+
+/// Writes a style that is seen through everywhere, of 16 × 16 pixels that differ.
+fn write_veil(path: &Path) -> std::io::Result<()> {
+    let mut encoder = png::Encoder::new(std::fs::File::create(path)?, 16, 16);
+    encoder.set_color(png::ColorType::Rgba);
+    let bytes: Vec<u8> =
+        (0..256u32).flat_map(|i| [i, 37 * i, 91 * i, 90 + 53 * i % 80].map(|c| (c % 256) as u8)).collect();
+    encoder.write_header()?.write_image_data(&bytes)?;
+    Ok(())
 }
 
 /// Writes 10 × 9 × 8 numbers as text.

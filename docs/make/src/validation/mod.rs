@@ -122,7 +122,7 @@ Three comparisons stand behind a picture:
 2. **The algorithm without rounding.** The same text runs with f64 for its numbers, where the adapter has them, and equals the reference.
 3. **f32 within derived bounds.** The reference draws the picture on numbers that know how far an f32 evaluation may lie from them.
 
-Faults are planted in the shaders by tests, and each must be noticed.
+A fault of 1 % in each multiplication of the shaders was planted, one at a time, and a scene must notice it: [planted faults](planted-faults.md).
 
 ";
 
