@@ -4,6 +4,9 @@ use crate::Failure;
 use crate::scene::memory;
 use clap::builder::RangedU64ValueParser;
 
+/// Address space of a thread: its stack of 2 MiB, and room for what it allocates as it starts.
+const BYTES_OF_A_THREAD: usize = 3 << 20;
+
 /// Resource limits of every verb.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
 pub(super) struct LimitArgs {
@@ -25,12 +28,16 @@ impl LimitArgs {
             memory::limit(bytes);
         }
         // For the pool 0 means its default.
-        let started = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0)).build_global();
-        started.map_err(|error| {
+        let threads = self.threads.unwrap_or(0);
+        let refused = |error: &dyn std::fmt::Display| {
             let what = format!("the threads cannot be started: {error}");
             let place = self.threads.map_or("--threads".into(), |n| format!("--threads {n}"));
             Failure::new(what, place, "ask for fewer with --threads, or allow the process more memory")
-        })
+        };
+        // A thread that starts and finds no memory would abort the process, so the address space is tried before.
+        let tried = std::hint::black_box(&mut Vec::<u8>::new()).try_reserve_exact(threads * BYTES_OF_A_THREAD);
+        tried.map_err(|error| refused(&error))?;
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|error| refused(&error))
     }
 }
 

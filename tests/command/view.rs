@@ -3,10 +3,16 @@
 use crate::folder::Folder;
 use std::process::Command;
 
-/// The command alone in a folder, so that no window beside it opens.
+/// The command alone in a folder, so that no window beside it opens. Linux starts no file that a process has open for
+/// writing, which a process that another test starts meanwhile would inherit; so another process writes it.
 fn alone(folder: &Folder) -> Command {
     let name = folder.path("drypoint").with_extension(std::env::consts::EXE_EXTENSION);
-    std::fs::copy(env!("CARGO_BIN_EXE_drypoint"), &name).unwrap();
+    let command = env!("CARGO_BIN_EXE_drypoint");
+    if cfg!(unix) {
+        assert!(Command::new("cp").arg(command).arg(&name).status().unwrap().success());
+    } else {
+        std::fs::copy(command, &name).unwrap();
+    }
     let mut command = Command::new(name);
     command.current_dir(folder.path("")).env("PATH", "");
     command
@@ -28,14 +34,17 @@ fn without_the_program_it_says_how_to_install_it() {
 #[cfg(unix)]
 #[test]
 fn the_program_beside_the_command_gets_the_file() {
-    use std::os::unix::fs::PermissionsExt;
     let folder = Folder::new();
-    folder.write("drypoint-viewer", "#!/bin/sh\necho \"$1\" > shown\n");
-    std::fs::set_permissions(folder.path("drypoint-viewer"), PermissionsExt::from_mode(0o755)).unwrap();
+    let write = |line: &str| {
+        let line = format!("printf '#!/bin/sh\\n%s\\n' '{line}' > drypoint-viewer; chmod +x drypoint-viewer");
+        let written = Command::new("sh").args(["-c", &line]).current_dir(folder.path("")).status().unwrap();
+        assert!(written.success());
+    };
+    write("echo \"$1\" > shown");
     let status = alone(&folder).args(["view", "head.nrrd"]).status().unwrap();
     assert!(status.success());
     assert_eq!(folder.read("shown"), b"head.nrrd\n");
-    folder.write("drypoint-viewer", "#!/bin/sh\nexit 2\n");
+    write("exit 2");
     let output = alone(&folder).arg("view").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().starts_with("error: the window ended with"));
