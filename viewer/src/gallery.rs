@@ -5,11 +5,16 @@ use drypoint::reference::style_transfer_functions::preview;
 use drypoint::scene::source::Disk;
 use drypoint::scene::style::Theme;
 use drypoint::scene::tables::StyleSource;
-use eframe::egui::{self, Color32, ColorImage, Image, Response, TextureHandle, TextureOptions, Ui, Vec2};
+use eframe::egui::{
+    self, Color32, ColorImage, DragAndDrop, Id, Image, Rect, Sense, TextureHandle, TextureOptions, Ui, Vec2,
+};
 use std::collections::BTreeMap;
 
 /// Pixels across a sphere.
 const SIDE: usize = 64;
+
+/// The name of a style that is dragged from the gallery.
+pub struct DraggedStyle(pub String);
 
 /// The styles of a theme with their spheres, which are drawn when they are first shown.
 #[derive(Default)]
@@ -57,48 +62,38 @@ impl Gallery {
         Some((ctx.load_texture(format!("style {name}"), image, TextureOptions::LINEAR), middle))
     }
 
-    /// Shows a button with the sphere of a style that opens the gallery. Returns the style that was chosen.
-    pub fn button(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
-        let sphere = self.image(ui, chosen, 18.0);
-        let text = if chosen.is_empty() { "style…" } else { chosen };
-        let mut picked = None;
-        let mut pick = |ui: &mut Ui, gallery: &mut Self| {
-            egui::Grid::new("styles").spacing([4.0, 4.0]).show(ui, |ui| {
-                for (i, name) in gallery.names().into_iter().enumerate() {
-                    if i > 0 && i % 5 == 0 {
-                        ui.end_row();
-                    }
-                    if gallery.item(ui, &name, name == chosen).clicked() {
-                        picked = Some(name);
-                        ui.close();
-                    }
+    /// Shows the spheres of all styles. They can be dragged to where a [`DraggedStyle`] is taken. Returns the style that was
+    /// clicked.
+    pub fn strip(&mut self, ui: &mut Ui, chosen: &str) -> Option<String> {
+        let mut clicked = None;
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = Vec2::splat(2.0);
+            ui.spacing_mut().button_padding = Vec2::splat(2.0);
+            for name in self.names() {
+                let Some(sphere) = self.image(ui, &name, 26.0) else { continue };
+                let button = egui::Button::image(sphere).frame_when_inactive(false).sense(Sense::click_and_drag());
+                let response = ui.add(button.selected(name == chosen)).on_hover_text(&name);
+                response.dnd_set_drag_payload(DraggedStyle(name.clone()));
+                if response.clicked() {
+                    clicked = Some(name);
                 }
-            });
-        };
-        match sphere {
-            Some(sphere) => ui.menu_image_text_button(sphere, text, |ui| pick(ui, self)),
-            None => ui.menu_button(text, |ui| pick(ui, self)),
-        };
-        picked
+            }
+        });
+        // The sphere goes with the pointer.
+        let dragged = DragAndDrop::payload::<DraggedStyle>(ui.ctx()).zip(ui.ctx().pointer_interact_pos());
+        if let Some((style, at)) = dragged
+            && let Some((texture, _)) = self.sphere(ui.ctx(), &style.0)
+        {
+            let layer = egui::LayerId::new(egui::Order::Tooltip, Id::unique("dragged style"));
+            let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            let place = Rect::from_center_size(at, Vec2::splat(30.0));
+            ui.ctx().layer_painter(layer).image(texture.id(), place, whole, Color32::WHITE);
+        }
+        clicked
     }
 
-    /// Shows a style of the gallery: its sphere over its name.
-    fn item(&mut self, ui: &mut Ui, name: &str, is_chosen: bool) -> Response {
-        let sphere = self.image(ui, name, 40.0);
-        ui.vertical_centered(|ui| {
-            ui.set_width(62.0);
-            let button = match sphere {
-                Some(sphere) => egui::Button::image(sphere),
-                None => egui::Button::new("?"),
-            };
-            let response = ui.add(button.selected(is_chosen).min_size(Vec2::splat(44.0))).on_hover_text(name);
-            ui.small(name);
-            response
-        })
-        .inner
-    }
-
-    fn image(&mut self, ui: &Ui, name: &str, side: f32) -> Option<Image<'static>> {
+    /// Returns the sphere of a style as an image.
+    pub fn image(&mut self, ui: &Ui, name: &str, side: f32) -> Option<Image<'static>> {
         let (texture, _) = self.sphere(ui.ctx(), name)?;
         Some(Image::new((texture.id(), Vec2::splat(side))).alt_text(format!("the style {name}")))
     }

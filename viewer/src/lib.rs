@@ -11,6 +11,7 @@
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
 //! | [`focus`] | halos focused at a place |
 //! | [`compare`] | the card against the reference, in the background |
+//! | [`plane`] | counts of voxels over two quantities |
 //! | `paths.rs` | relative paths of a scene that is saved in another folder |
 //! | [`camera`] | moves of the camera in closed form |
 //! | [`views`] | cameras that are kept by a name |
@@ -42,6 +43,7 @@ mod palette;
 pub mod panels;
 mod paths;
 pub mod picture;
+pub mod plane;
 mod pointer;
 mod present;
 pub mod probe;

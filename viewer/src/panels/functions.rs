@@ -1,28 +1,53 @@
 //! The transfer function over the histogram: nodes are dragged, and each has a line with its style or colour.
+//!
+//! A function over the value has its opacity upwards. A function over two quantities has the second one upwards, and each
+//! row of nodes is a line across; where nodes are clear, so are their discs.
 
 use super::Panel;
+use super::nodes::{self, Handle};
 use crate::camera::{number, rounded};
 use crate::document::Edit;
-use crate::gallery::Gallery;
+use crate::gallery::{DraggedStyle, Gallery};
 use crate::key::KeyPath;
+use crate::plane::{JointHistogram, PlaneCounter, PlaneQuery, counter};
 use crate::session::Session;
-use crate::widgets::{color_button, hex, named, numbers};
+use crate::widgets::{color_button, named, numbers};
 use drypoint::scene::color::linear_to_srgb;
-use drypoint::scene::tables::{Node, NodeColor, Transfer, TransferKind, Unit};
-use eframe::egui::{self, Color32, DragValue, RichText, ScrollArea, Ui, Vec2b};
-use egui_plot::{FilledArea, Line, Plot, PlotPoint, PlotPoints, Points};
-use toml_edit::{Array, InlineTable, Item, Value};
+use drypoint::scene::tables::{Axis, Node, NodeColor, Over, RowAt, Transfer, TransferKind, Unit};
+use eframe::egui::{
+    self, Color32, DragValue, Pos2, Response, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, Vec2, Vec2b,
+};
+use egui_plot::{FilledArea, Line, Plot, PlotImage, PlotPoint, PlotPoints, PlotTransform, Points};
+use std::sync::Arc;
+use toml_edit::Item;
 
 /// Points of the window within which the pointer takes a node.
 const REACH: f32 = 12.0;
+
+/// Second quantities that a function can be given here. All others are written among all keys.
+const SECOND: [Axis; 5] = [Axis::GradientMagnitude, Axis::K1, Axis::K2, Axis::Mean, Axis::Gaussian];
 
 /// The panel of the transfer function.
 #[derive(Default)]
 pub(super) struct FunctionsPanel {
     gallery: Gallery,
     /// The node that is dragged, or was last.
-    selected: Option<usize>,
+    selected: Option<KeyPath>,
     is_dragged: bool,
+    plane: PlanePart,
+}
+
+/// The counts over two quantities.
+#[derive(Default)]
+struct PlanePart {
+    /// The thread, once it was needed.
+    counter: Option<PlaneCounter>,
+    /// The last question.
+    asked: Option<PlaneQuery>,
+    /// Its answer, and the picture of it in a colour.
+    counted: Option<(JointHistogram, Color32, TextureHandle)>,
+    /// The second quantity that the function is to have, once the counts are known.
+    wished: Option<Axis>,
 }
 
 impl Panel for FunctionsPanel {
@@ -42,38 +67,56 @@ impl Panel for FunctionsPanel {
             }
             return;
         };
-        let list = KeyPath::from("transfer.nodes");
-        let Some(nodes) = transfer.nodes.as_ref().filter(|_| transfer.rows.is_none()) else {
-            ui.label("This function is over two quantities. Its rows are edited among all keys.");
-            return;
-        };
         self.gallery.open(&scene.styles.theme);
-        let given = session.document.get(&list).and_then(Item::as_array).map(Array::len);
-        if given != Some(nodes.len()) {
-            ui.label("The nodes were found in the data. Once they are written into the scene they can be moved.");
+        let over = match (&transfer.over, self.plane.wished.clone()) {
+            (Over::Two(axes), _) => Some(axes.clone()),
+            (Over::Value, Some(wished)) => Some([Axis::Value, wished]),
+            (Over::Value, None) => None,
+        };
+        if let Some(over) = over.filter(|_| transfer.unit == Unit::Value) {
+            self.plane.follow(ui, session, over);
+        }
+        self.plane.take_wish(session, transfer);
+        let is_written = nodes::is_written(&session.document, transfer);
+        if !is_written {
+            ui.label("The nodes were found in the data, or form a grid. Once they are written so they can be moved.");
             if ui.button("Write the nodes into the scene").clicked() {
-                let nodes: Array = nodes.iter().map(|node| written(node, transfer.kind)).collect();
-                session.edit("write the nodes", vec![Edit::Set(list, Value::Array(nodes))]);
+                session.edit("write the nodes", nodes::written(transfer));
             }
         }
-        self.plot(ui, session, transfer, nodes, given.is_some());
-        if given == Some(nodes.len()) {
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.lines(ui, session, transfer, nodes));
+        let handles = nodes::handles(transfer);
+        let response = self.plot(ui, session, transfer, &handles, is_written);
+        if transfer.kind == TransferKind::Style && is_written {
+            self.styles(ui, session, &handles, response);
+        }
+        if is_written {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.lines(ui, session, transfer));
         }
     }
 }
 
 impl FunctionsPanel {
-    /// Shows the function over the log histogram, and moves the node that is dragged.
-    fn plot(&mut self, ui: &mut Ui, session: &mut Session, transfer: &Transfer, nodes: &[Node], moves: bool) {
-        let (xs, heights) = histogram(session, transfer.unit);
-        let ends = [xs.first(), xs.last()].map(|x| x.copied().unwrap_or_default());
-        let of_nodes = || nodes.iter().map(|node| node.at);
-        let left = of_nodes().fold(ends[0], f64::min);
-        let right = of_nodes().fold(ends[1], f64::max);
-        let pad = 0.03 * (right - left).max(1e-9);
-        let colors: Vec<Color32> = nodes.iter().map(|node| self.color(ui.ctx(), node)).collect();
-        let ink = ui.visuals().text_color();
+    /// Shows the function over the log histogram, and moves the node that is dragged. Returns the plot, and the node nearest
+    /// to the pointer on it.
+    fn plot(
+        &mut self,
+        ui: &mut Ui,
+        session: &mut Session,
+        transfer: &Transfer,
+        handles: &[Handle<'_>],
+        moves: bool,
+    ) -> (Response, Option<KeyPath>) {
+        let counts = matches!(transfer.over, Over::Value).then(|| histogram(session, transfer.unit));
+        let colors: Vec<Color32> = handles.iter().map(|handle| self.color(ui.ctx(), handle.node)).collect();
+        let plane = self.plane.counted.as_ref().filter(|_| counts.is_none() && transfer.unit == Unit::Value);
+        let bounds =
+            nodes::bounds(handles, counts.as_ref().map(|(xs, _)| &xs[..]), plane.map(|(plane, ..)| plane.ends));
+        let (ink, ground) = (ui.visuals().text_color(), ui.visuals().extreme_bg_color);
+        let image = plane.map(|(plane, _, texture)| {
+            let [x, y] = plane.ends;
+            let size = Vec2::new((x[1] - x[0]) as f32, (y[1] - y[0]) as f32);
+            (texture.id(), PlotPoint::new((x[0] + x[1]) / 2.0, (y[0] + y[1]) / 2.0), size)
+        });
         let plot = Plot::new("function")
             .height((ui.available_height() * 0.45).clamp(120.0, 260.0))
             .allow_drag(false)
@@ -81,119 +124,188 @@ impl FunctionsPanel {
             .allow_scroll(false)
             .allow_boxed_zoom(false)
             .allow_double_click_reset(false)
-            .show_axes(Vec2b::new(true, false))
+            .show_axes(Vec2b::new(true, counts.is_none()))
             .show_grid(false)
             .show_x(false)
             .show_y(false)
-            .default_x_bounds(left - pad, right + pad)
-            .default_y_bounds(-0.05, 1.08);
-        let selected = self.selected;
+            .default_x_bounds(bounds[0][0], bounds[0][1])
+            .default_y_bounds(bounds[1][0], bounds[1][1]);
+        let (selected, is_plane) = (self.selected.clone(), counts.is_none());
         let shown = plot.show(ui, |plot| {
-            plot.set_plot_bounds_x((left - pad)..=(right + pad));
-            plot.set_plot_bounds_y(-0.05..=1.08);
-            if !xs.is_empty() {
-                let floor = vec![0.0; xs.len()];
-                let area = FilledArea::new("histogram", &xs, &floor, &heights);
+            plot.set_plot_bounds_x(bounds[0][0]..=bounds[0][1]);
+            plot.set_plot_bounds_y(bounds[1][0]..=bounds[1][1]);
+            if let Some((xs, heights)) = counts.as_ref().filter(|(xs, _)| !xs.is_empty()) {
+                let area = FilledArea::new("histogram", xs, &vec![0.0; xs.len()], heights);
                 plot.add(area.fill_color(ink.gamma_multiply(0.18)).allow_hover(false));
             }
-            let points: PlotPoints<'_> = nodes.iter().map(|node| [node.at, node.opacity]).collect();
-            plot.line(Line::new("opacity", points).color(ink.gamma_multiply(0.8)).width(1.5).allow_hover(false));
-            for (i, (node, color)) in nodes.iter().zip(&colors).enumerate() {
-                let radius = if selected == Some(i) { 7.0 } else { 5.0 };
-                let at = [node.at, node.opacity];
-                let ring = Points::new("node", vec![at]).color(ink).radius(radius + 1.5).allow_hover(false);
+            if let Some((texture, middle, size)) = image {
+                plot.image(PlotImage::new("counts", texture, middle, size).allow_hover(false));
+            }
+            for row in handles.chunk_by(|a, b| a.row == b.row) {
+                let points: PlotPoints<'_> = row.iter().map(|handle| handle.at).collect();
+                plot.line(Line::new("nodes", points).color(ink.gamma_multiply(0.8)).width(1.5).allow_hover(false));
+            }
+            for (handle, color) in handles.iter().zip(&colors) {
+                let radius = if selected.as_ref() == Some(&handle.key) { 7.0 } else { 5.0 };
+                let at = vec![handle.at];
+                let ring = Points::new("node", at.clone()).color(ink).radius(radius + 1.5).allow_hover(false);
                 plot.points(ring);
-                plot.points(Points::new("node", vec![at]).color(*color).radius(radius).allow_hover(false));
+                // In a plane the opacity is seen in the disc alone.
+                let paper = if is_plane { 1.0 - handle.node.opacity as f32 } else { 0.0 };
+                let color = color.lerp_to_gamma(ground, paper);
+                plot.points(Points::new("node", at).color(color).radius(radius).allow_hover(false));
             }
         });
         let response = shown.response.on_hover_text("Drag a node. Double-click to add one.");
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Canvas, true, "Transfer function"));
-        let (transform, pointer) = (shown.transform, response.interact_pointer_pos());
-        let Some(pointer) = pointer.filter(|_| moves) else {
+        for handle in handles {
+            // A name for screen readers.
+            let at = shown.transform.position_from_point(&PlotPoint::new(handle.at[0], handle.at[1]));
+            let disc = egui::Rect::from_center_size(at, Vec2::splat(12.0));
+            let name = ui.interact(disc, ui.scope_id().with(handle.key.to_string()), egui::Sense::hover());
+            name.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, handle.key.to_string()));
+        }
+        let nearest = |at: Pos2, reach: f32| nearest(&shown.transform, handles, at, reach);
+        let over = response.contains_pointer().then(|| ui.ctx().pointer_interact_pos()).flatten();
+        let hovered = over.and_then(|at| nearest(at, f32::INFINITY)).map(|i| handles[i].key.clone());
+        let Some(pointer) = response.interact_pointer_pos().filter(|_| moves) else {
             self.is_dragged &= response.dragged();
-            return;
+            return (response, hovered);
         };
-        let place = |node: &Node| transform.position_from_point(&PlotPoint::new(node.at, node.opacity));
-        let nearest = |at: egui::Pos2| {
-            let reach = |(_, node): &(usize, &Node)| place(node).distance(at);
-            let near = nodes.iter().enumerate().min_by(|a, b| reach(a).total_cmp(&reach(b)));
-            near.filter(|found| reach(found) <= REACH).map(|(i, _)| i)
-        };
-        if response.double_clicked() && nearest(pointer).is_none() {
-            self.add(session, transfer, nodes, transform.value_from_position(pointer));
+        let to = shown.transform.value_from_position(pointer);
+        if response.double_clicked() && nearest(pointer, REACH).is_none() {
+            self.add(session, transfer, [to.x, to.y]);
         } else if response.drag_started() || response.clicked() {
             // A drag starts where the button was pressed.
             let from = ui.input(|input| input.pointer.press_origin()).unwrap_or(pointer);
-            let found = nearest(from);
-            self.selected = found.or(self.selected);
+            let found = nearest(from, REACH).map(|i| handles[i].key.clone());
             self.is_dragged = found.is_some() && response.drag_started();
+            self.selected = found.or(self.selected.take());
         }
-        if let (true, true, Some(i)) = (self.is_dragged, response.dragged(), self.selected)
-            && let Some(node) = nodes.get(i)
-        {
-            let to = transform.value_from_position(pointer);
-            let before = i.checked_sub(1).map_or(f64::NEG_INFINITY, |before| nodes[before].at);
-            let after = nodes.get(i + 1).map_or(f64::INFINITY, |after| after.at);
-            let at = round_at(to.x.clamp(before, after.max(before)), right - left);
-            let opacity = rounded(to.y.clamp(0.0, 1.0), 3);
-            let key = KeyPath::from("transfer.nodes").item(i);
-            if [at, opacity] != [node.at, node.opacity] {
-                let edits = vec![
-                    Edit::Set(key.name("at"), number(at.clamp(before, after.max(before)))),
-                    Edit::Set(key.name("opacity"), number(opacity)),
-                ];
-                session.edit(&format!("move node {i}"), edits);
+        let dragged = handles.iter().find(|handle| self.selected.as_ref() == Some(&handle.key));
+        if let (true, true, Some(handle)) = (self.is_dragged, response.dragged(), dragged) {
+            let edits = handle.moved([to.x, to.y], bounds.map(|[lo, hi]| hi - lo));
+            if !edits.is_empty() {
+                session.edit(&format!("move {}", handle.key), edits);
             }
+        }
+        (response, hovered)
+    }
+
+    /// Shows the spheres of the styles. A click gives one to the node that is selected; a drag to a node of the plot.
+    fn styles(
+        &mut self,
+        ui: &mut Ui,
+        session: &mut Session,
+        handles: &[Handle<'_>],
+        (plot, hovered): (Response, Option<KeyPath>),
+    ) {
+        if plot.dnd_hover_payload::<DraggedStyle>().is_some() {
+            self.selected = hovered.clone().or(self.selected.take());
+        }
+        if let Some((style, key)) = plot.dnd_release_payload::<DraggedStyle>().zip(hovered) {
+            session.set(&key.name("style"), style.0.clone());
+        }
+        let selected = handles.iter().find(|handle| self.selected.as_ref() == Some(&handle.key));
+        let chosen = selected.and_then(|handle| handle.node.style()).unwrap_or_default();
+        let clicked = self.gallery.strip(ui, chosen);
+        match (clicked, selected) {
+            (Some(style), Some(handle)) => session.set(&handle.key.name("style"), style),
+            (Some(_), None) => session.notice = "Drag the style to a node, or select a node first".into(),
+            (None, _) => {}
         }
     }
 
     /// Adds a node at a point of the plot, with the look of the node before it.
-    fn add(&mut self, session: &mut Session, transfer: &Transfer, nodes: &[Node], to: PlotPoint) {
-        let index = nodes.iter().take_while(|node| node.at <= to.x).count();
-        let like = nodes.get(index.saturating_sub(1));
-        let Some(like) = like else { return };
-        let span = nodes.iter().map(|node| node.at).fold(0.0, |most: f64, at| most.max((at - to.x).abs()));
-        let node = Node { at: round_at(to.x, span), opacity: rounded(to.y.clamp(0.0, 1.0), 3), ..like.clone() };
-        let list = KeyPath::from("transfer.nodes");
-        session.edit("add a node", vec![Edit::Insert(list, index, table(&node, transfer.kind))]);
-        self.selected = Some(index);
+    fn add(&mut self, session: &mut Session, transfer: &Transfer, to: [f64; 2]) {
+        if let Some((list, index, node)) = nodes::added(transfer, to) {
+            self.selected = Some(list.item(index));
+            session.edit("add a node", vec![Edit::Insert(list, index, nodes::table(&node, transfer.kind))]);
+        }
     }
 
-    /// Shows a line for each node.
-    fn lines(&mut self, ui: &mut Ui, session: &mut Session, transfer: &Transfer, nodes: &[Node]) {
-        let list = KeyPath::from("transfer.nodes");
-        let span = nodes.last().map_or(1.0, |last| last.at) - nodes.first().map_or(0.0, |first| first.at);
-        egui::Grid::new("nodes").num_columns(5).striped(true).show(ui, |ui| {
+    /// Shows a line for each node, under its row if there are rows.
+    fn lines(&mut self, ui: &mut Ui, session: &mut Session, transfer: &Transfer) {
+        match (&transfer.nodes, &transfer.rows, &transfer.over) {
+            (_, Some(rows), Over::Two([first, second])) => {
+                ui.horizontal(|ui| {
+                    ui.weak(format!("{} across, {} upwards", first.name(), second.name()));
+                    if *first == Axis::Value && ui.small_button("Over the value alone").clicked() {
+                        session.edit("a function over the value", nodes::flattened(transfer));
+                    }
+                });
+                let list = KeyPath::from("transfer.rows");
+                for (i, row) in rows.iter().enumerate() {
+                    let key = list.item(i);
+                    ui.horizontal(|ui| {
+                        ui.strong(format!("row {i}"));
+                        match row.at {
+                            RowAt::Number(_) => {
+                                self.number(ui, session, &key.name("at"), &format!("row {i}"), f64::MAX)
+                            }
+                            _ => drop(ui.weak("of a label")),
+                        }
+                        let remove = ui.add_enabled(rows.len() > 1, egui::Button::new("×").small());
+                        if remove.on_hover_text("Remove the row").clicked() {
+                            session.edit(&format!("remove {key}"), vec![Edit::Remove(key.clone())]);
+                        }
+                    });
+                    self.grid(ui, session, &key.name("nodes"), &row.nodes);
+                }
+                if ui.button("Add a row").clicked() {
+                    session.edit("add a row", nodes::row_added(transfer));
+                }
+            }
+            (Some(line), ..) => {
+                self.grid(ui, session, &"transfer.nodes".into(), line);
+                ui.add_space(4.0);
+                ui.horizontal(|ui| {
+                    let end = line.last().map(|node| [node.at, node.opacity]);
+                    if let (Some(end), true) = (end, ui.button("Add a node").clicked()) {
+                        self.add(session, transfer, end);
+                    }
+                    ui.menu_button("Over a second quantity", |ui| {
+                        for axis in SECOND {
+                            if ui.button(axis.name()).clicked() {
+                                self.plane.wished = Some(axis);
+                                ui.close();
+                            }
+                        }
+                    });
+                });
+            }
+            _ => {}
+        }
+    }
+
+    /// Shows the nodes of a list.
+    fn grid(&mut self, ui: &mut Ui, session: &mut Session, list: &KeyPath, line: &[Node]) {
+        egui::Grid::new(list.to_string()).num_columns(5).striped(true).show(ui, |ui| {
             for title in ["", "value", "opacity", "look", ""] {
                 ui.weak(title);
             }
             ui.end_row();
-            for (i, node) in nodes.iter().enumerate() {
+            for (i, node) in line.iter().enumerate() {
                 let key = list.item(i);
-                let is_selected = self.selected == Some(i);
-                let title = RichText::new(format!("node {i}"));
-                if ui.selectable_label(is_selected, title).clicked() {
-                    self.selected = Some(i);
+                let is_selected = self.selected.as_ref() == Some(&key);
+                if ui.selectable_label(is_selected, RichText::new(format!("node {i}"))).clicked() {
+                    self.selected = Some(key.clone());
                 }
-                for (name, speed, range) in [("at", span / 500.0, f64::MIN..=f64::MAX), ("opacity", 0.005, 0.0..=1.0)] {
-                    let key = key.name(name);
-                    let Some(mut x) = numbers(session.document.get(&key)).and_then(|x| x.first().copied()) else {
-                        ui.weak("1");
-                        continue;
-                    };
-                    let drag = ui.add(DragValue::new(&mut x).speed(speed).range(range).max_decimals(4));
-                    named(&drag, &format!("{name} of node {i}"));
-                    if drag.changed() {
-                        session.set(&key, number(rounded(x, 4)));
-                    }
-                }
+                self.number(ui, session, &key.name("at"), &format!("at of node {i}"), f64::MAX);
+                self.number(ui, session, &key.name("opacity"), &format!("opacity of node {i}"), 1.0);
                 match &node.color {
                     NodeColor::Style(style) => {
-                        ui.push_id(i, |ui| {
-                            if let Some(picked) = self.gallery.button(ui, style) {
-                                session.set(&key.name("style"), picked);
-                            }
-                        });
+                        let button = match self.gallery.image(ui, style, 18.0) {
+                            Some(sphere) => egui::Button::image_and_text(sphere, style),
+                            None => egui::Button::new(style),
+                        };
+                        let response = ui.add(button).on_hover_text("Drag a style here.");
+                        if let Some(style) = response.dnd_release_payload::<DraggedStyle>() {
+                            session.set(&key.name("style"), style.0.clone());
+                        }
+                        if response.clicked() {
+                            self.selected = Some(key.clone());
+                        }
                     }
                     NodeColor::Color(_) => {
                         let text = session.document.get(&key.name("color")).and_then(Item::as_str).unwrap_or_default();
@@ -204,20 +316,26 @@ impl FunctionsPanel {
                         }
                     }
                 }
-                if ui
-                    .add_enabled(nodes.len() > 1, egui::Button::new("×").small())
-                    .on_hover_text("Remove the node")
-                    .clicked()
-                {
+                let remove = ui.add_enabled(line.len() > 1, egui::Button::new("×").small());
+                if remove.on_hover_text("Remove the node").clicked() {
                     session.edit(&format!("remove {key}"), vec![Edit::Remove(key)]);
                 }
                 ui.end_row();
             }
         });
-        ui.add_space(4.0);
-        let end = nodes.last().map(|node| PlotPoint::new(node.at, node.opacity));
-        if let (Some(end), true) = (end, ui.button("Add a node").clicked()) {
-            self.add(session, transfer, nodes, end);
+    }
+
+    /// Shows the number of a key: a place if `most` is infinite for it, else a share from 0 to `most`.
+    fn number(&self, ui: &mut Ui, session: &mut Session, key: &KeyPath, name: &str, most: f64) {
+        let Some(mut x) = numbers(session.document.get(key)).and_then(|x| x.first().copied()) else {
+            drop(ui.weak("1"));
+            return;
+        };
+        let (least, speed) = if most < f64::MAX { (0.0, 0.005) } else { (f64::MIN, (x.abs() * 0.005).max(0.002)) };
+        let drag = ui.add(DragValue::new(&mut x).speed(speed).range(least..=most).max_decimals(4));
+        named(&drag, name);
+        if drag.changed() {
+            session.set(key, number(rounded(x, 4)));
         }
     }
 
@@ -231,6 +349,54 @@ impl FunctionsPanel {
             }
         }
     }
+}
+
+impl PlanePart {
+    /// Asks for the counts over two quantities if they are not those that are known, and takes the answer.
+    fn follow(&mut self, ui: &Ui, session: &Session, over: [Axis; 2]) {
+        let (Some(scene), Some(data)) = (session.scene.clone(), session.data()) else { return };
+        let query = PlaneQuery { scene, volume: Arc::clone(&data.volume), over };
+        let counter = self.counter.get_or_insert_with(|| {
+            let ctx = ui.ctx().clone();
+            counter(Box::new(move || ctx.request_repaint()))
+        });
+        if self.asked.as_ref().is_none_or(|asked| !asked.is_same(&query)) {
+            self.counted = None;
+            counter.ask(query.clone());
+            self.asked = Some(query);
+        }
+        let ink = ui.visuals().text_color();
+        let picture = |plane: &JointHistogram| {
+            ui.ctx().load_texture("counts over two quantities", plane.picture(ink), TextureOptions::LINEAR)
+        };
+        let is_last = |query: &PlaneQuery| self.asked.as_ref().is_some_and(|asked| asked.is_same(query));
+        if let Some((_, counted)) = counter.answers().filter(|(query, _)| is_last(query)).last() {
+            self.counted = counted.map(|plane| (plane.clone(), ink, picture(&plane)));
+            if self.counted.is_none() {
+                self.wished = None;
+            }
+        }
+        // The window was made dark or light.
+        if let Some((plane, color, texture)) = self.counted.as_mut().filter(|(_, color, _)| *color != ink) {
+            (*color, *texture) = (ink, picture(plane));
+        }
+    }
+
+    /// Gives a function over the value its second quantity, once the counts are known.
+    fn take_wish(&mut self, session: &mut Session, transfer: &Transfer) {
+        if let Some((plane, ..)) = &self.counted
+            && let Some(wished) = self.wished.take()
+        {
+            session.edit("a function over two quantities", nodes::lifted(transfer, &wished, plane.ends[1]));
+        }
+    }
+}
+
+/// Returns the node nearest to a place in the window within a reach.
+fn nearest(transform: &PlotTransform, handles: &[Handle<'_>], at: Pos2, reach: f32) -> Option<usize> {
+    let place = |handle: &Handle<'_>| transform.position_from_point(&PlotPoint::new(handle.at[0], handle.at[1]));
+    let far = handles.iter().map(|handle| place(handle).distance(at)).enumerate();
+    far.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far)| *far <= reach).map(|(i, _)| i)
 }
 
 /// Places and heights of the log histogram in the unit of nodes. Heights are ln(1 + count), of which the largest is 1. A
@@ -249,27 +415,4 @@ fn histogram(session: &Session, unit: Unit) -> (Vec<f64>, Vec<f64>) {
         histogram.edges(i).map(|edge| (x(edge), height))
     });
     steps.unzip()
-}
-
-/// A value rounded to a thousandth of a span, or finer.
-fn round_at(at: f64, span: f64) -> f64 {
-    rounded(at, 3 - span.abs().max(1e-12).log10().floor() as i32)
-}
-
-/// A node as the scene writes it.
-pub(super) fn table(node: &Node, kind: TransferKind) -> InlineTable {
-    let look = match (&node.color, kind) {
-        (NodeColor::Style(name), _) => ("style", Value::from(name.as_str())),
-        (NodeColor::Color(linear), _) => {
-            let [r, g, b] = linear.map(|c| (linear_to_srgb(c).clamp(0.0, 1.0) * 255.0).round() as u8);
-            ("color", Value::from(hex(Color32::from_rgb(r, g, b))))
-        }
-    };
-    InlineTable::from_iter([("at", number(node.at)), look, ("opacity", number(node.opacity))])
-}
-
-fn written(node: &Node, kind: TransferKind) -> Value {
-    let mut value = Value::InlineTable(table(node, kind));
-    value.decor_mut().set_prefix("\n  ");
-    value
 }

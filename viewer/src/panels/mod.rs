@@ -7,6 +7,7 @@ mod compare;
 mod functions;
 mod handle;
 pub mod keys;
+mod nodes;
 mod objects;
 mod paint;
 mod slices;

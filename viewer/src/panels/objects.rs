@@ -1,8 +1,8 @@
 //! Objects: how each is selected, painted and moved.
 
-use super::functions::table;
 use super::handle::Handle;
 use super::keys::{Filter, tree};
+use super::nodes::table;
 use super::paint::PaintTool;
 use super::{Panel, PictureArea};
 use crate::camera::{number, place};

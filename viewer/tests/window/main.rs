@@ -1,6 +1,7 @@
 //! The window on software Vulkan: what a user does, and what the document and the picture are afterwards.
 
 mod compare;
+mod functions;
 mod late;
 mod objects;
 mod places;
@@ -217,32 +218,6 @@ fn wheel_and_keys_move_the_camera() {
 }
 
 #[test]
-fn a_node_is_dragged_over_the_histogram() {
-    let Some(mut window) = window(SCENE, Backend::Card) else { return };
-    let first = pixels(&window);
-    let plot = window.get_by_label("Transfer function").rect();
-    // The nodes are where the panel's bounds put them: the volume's range with 3 % beside it, and 0.05 below and 0.08 above.
-    let data = viewer(&window).session.data().cloned().unwrap();
-    let [lo, hi] = data.volume.range();
-    let pad = 0.03 * (hi - lo);
-    let place = |at: f64, opacity: f64| {
-        let x = (at - lo + pad) / (hi - lo + 2.0 * pad);
-        let y = (1.08 - opacity) / 1.13;
-        plot.min + plot.size() * Vec2::new(x as f32, y as f32)
-    };
-    drag(&mut window, PointerButton::Primary, place(150.0, 0.9), place(180.0, 0.3), Modifiers::NONE);
-    settle(&mut window);
-    let changed = text(&window);
-    assert!(!changed.contains("at = 150") && changed.contains("# the surface"), "{changed}");
-    let scene = viewer(&window).session.scene.clone().unwrap();
-    let node = &scene.transfer.as_ref().unwrap().nodes.as_ref().unwrap()[1];
-    assert!((node.at - 180.0).abs() < 3.0 && (node.opacity - 0.3).abs() < 0.03, "{node:?}");
-    assert!(difference(&first, &pixels(&window)) > 0.05);
-    press(&mut window, Key::Z, Modifiers::COMMAND);
-    assert_eq!(text(&window), SCENE);
-}
-
-#[test]
 fn a_fault_is_shown_with_its_key_and_the_last_picture_stays() {
     let Some(mut window) = window(SCENE, Backend::Reference) else { return };
     let first = pixels(&window);
@@ -316,21 +291,6 @@ fn a_clip_plane_is_moved_by_its_handle() {
     assert!(difference(&whole, &pixels(&window)) > 0.01);
     press(&mut window, Key::Z, Modifiers::COMMAND);
     assert_eq!(text(&window), added);
-}
-
-/// A node takes another style from the gallery.
-#[test]
-fn a_style_is_chosen_by_its_sphere() {
-    let styles = SCENE.replace("regular", "style").replace("color = \"#804020\"", "style = \"wax\"");
-    let styles = styles.replace("color = \"#ffcc88\"", "style = \"glass\"").replace("\n[shading]\n", "");
-    let Some(mut window) = window(&styles, Backend::Reference) else { return };
-    let first = pixels(&window);
-    window.get_by_label_contains("glass").click();
-    window.run_steps(3);
-    window.get_by_label("the style bone").click();
-    settle(&mut window);
-    assert_eq!(text(&window), styles.replace("glass", "bone"));
-    assert!(difference(&first, &pixels(&window)) > 0.05);
 }
 
 /// A picture that the window exports is the command's, byte for byte.
