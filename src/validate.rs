@@ -10,6 +10,7 @@ use crate::job::Job;
 use drypoint_scene::picture::Picture;
 use serde::Serialize;
 use std::fmt;
+use std::sync::atomic::AtomicBool;
 
 /// The largest difference in f64, as a share of a stage's largest number, up to which algorithms count as the same.
 pub const SAME: f64 = 1e-9;
@@ -193,7 +194,16 @@ pub fn validate(job: &Job, gpu: &Gpu) -> Result<Validation, Failure> {
 /// # Errors
 /// The errors of [`validate`].
 pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
-    Truth::new(job, &[])?.validate(gpu, edit)
+    let found = Truth::new(job, &[])?.validate(gpu, edit, &AtomicBool::new(false))?;
+    Ok(found.unwrap_or_else(|| unreachable!("nothing stops the comparison")))
+}
+
+/// Like [`validate`]. Once `stop` is true, the comparison soon ends without a result.
+///
+/// # Errors
+/// The errors of [`validate`].
+pub fn validate_until(job: &Job, gpu: &Gpu, stop: &AtomicBool) -> Result<Option<Validation>, Failure> {
+    Truth::new(job, &[])?.validate(gpu, &|text| text, stop)
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use drypoint_scene::fragments::Fragments;
 use drypoint_scene::picture::{LayerKind, Picture};
 use drypoint_scene::plan::Pass;
 use drypoint_scene::shot::KappaSource;
+use std::sync::atomic::AtomicBool;
 
 /// A larger bound says nothing about a colour.
 const SAYS_NOTHING: f64 = 0.5;
@@ -68,17 +69,26 @@ impl<'j> Truth<'j> {
         Ok(Self { job, plain, layered, has_further: !further.is_empty(), stages, lines, picture, bounds })
     }
 
-    /// Compares a graphics card with the reference, with edited shaders in f32.
+    /// Compares a graphics card with the reference, with edited shaders in f32. Once `stop` is true, the comparison soon ends
+    /// without a result.
     ///
     /// # Errors
     /// The errors of the adapter.
-    pub fn validate(&self, gpu: &Gpu, edit: &dyn Fn(String) -> String) -> Result<Validation, Failure> {
+    pub fn validate(
+        &self,
+        gpu: &Gpu,
+        edit: &dyn Fn(String) -> String,
+        stop: &AtomicBool,
+    ) -> Result<Option<Validation>, Failure> {
         let on_card = |precision| GpuJob::of(self.job, gpu, &self.layered, precision);
-        let double = match gpu.has_double() {
-            true => Some(self.drawn(&on_card(Precision::Double)?, &|text| text)?),
-            false => None,
-        };
-        let single = self.drawn(&on_card(Precision::Single)?, edit)?;
+        let mut double = None;
+        if gpu.has_double() {
+            double = self.drawn(&on_card(Precision::Double)?, &|text| text, stop)?;
+            if double.is_none() {
+                return Ok(None);
+            }
+        }
+        let Some(single) = self.drawn(&on_card(Precision::Single)?, edit, stop)? else { return Ok(None) };
         let compared: Vec<Stage> = self
             .stages
             .iter()
@@ -99,7 +109,7 @@ impl<'j> Truth<'j> {
         let rms = whole.layers.iter().find(|layer| layer.name == "beauty").map_or(f64::NAN, |layer| layer.rms);
         let (adapter, flip) = (gpu.describe(), whole.flip.unwrap_or(f64::NAN));
         let unbounded = self.bounds.as_ref().err().cloned();
-        Ok(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures })
+        Ok(Some(Validation { adapter, stages: compared, parts_at, rms, flip, bounded, unbounded, pictures }))
     }
 
     /// The scene on a graphics card, for [`notices`](Self::notices): colours in f32 if bounds are known and no further layers
@@ -125,7 +135,8 @@ impl<'j> Truth<'j> {
     /// # Errors
     /// The errors of the adapter.
     pub fn notices(&self, on_card: &GpuJob<'_>, edit: &dyn Fn(String) -> String) -> Result<bool, Failure> {
-        let drawn = self.drawn(on_card, edit)?;
+        let drawn = self.drawn(on_card, edit, &AtomicBool::new(false))?;
+        let Some(drawn) = drawn else { unreachable!("nothing stops the frame") };
         let parts = |layer| largest_difference(&self.picture, &drawn, layer) > SAME * self.largest(layer);
         Ok(match self.of_colours() {
             Some(bounds) => against(bounds, &drawn).exceeded > 0,
@@ -139,10 +150,15 @@ impl<'j> Truth<'j> {
         channels.filter(|c| c.is_finite()).fold(0.0, |largest: f64, c| largest.max(c.abs()))
     }
 
-    /// A card's picture with an edited shader.
-    fn drawn(&self, on_card: &GpuJob<'_>, edit: &dyn Fn(String) -> String) -> Result<Picture, Failure> {
+    /// A card's picture with an edited shader; none if it was stopped.
+    fn drawn(
+        &self,
+        on_card: &GpuJob<'_>,
+        edit: &dyn Fn(String) -> String,
+        stop: &AtomicBool,
+    ) -> Result<Option<Picture>, Failure> {
         let mut renderer = on_card.edited(edit)?;
-        let picture = renderer.merge(self.lines.clone()).and_then(|()| renderer.frame(&|_| ()));
+        let picture = renderer.merge(self.lines.clone()).and_then(|()| renderer.frame_until(&|_| (), stop));
         picture.map_err(|error| on_card.failure(&error))
     }
 }

@@ -11,10 +11,11 @@ use drypoint::output::read::Image;
 use drypoint::scene::source::Disk;
 use drypoint::scene::tables::{RaysPerPixel, Scene};
 use drypoint::scene::volume::Volume;
-use drypoint::validate::{Validation, validate};
+use drypoint::validate::{Validation, validate_until};
 use drypoint::{Failure, Failures};
 use eframe::egui::ColorImage;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
 /// A comparison of the card with the reference.
@@ -27,21 +28,31 @@ pub struct Comparison {
     pub largest_flip: f64,
 }
 
-/// A comparison that runs in the background.
+/// A comparison that runs in the background. It is given up when this is dropped.
 pub struct Comparing {
     end: Receiver<Result<Comparison, Failures>>,
+    stop: Arc<AtomicBool>,
+}
+
+impl Drop for Comparing {
+    fn drop(&mut self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
 }
 
 impl Comparing {
     /// Starts to compare. `wake` is called at the end, on the thread.
     pub fn start(scene: Scene, volume: Arc<Volume>, card: Gpu, wake: Box<dyn Fn() + Send>) -> Self {
-        let (sender, end) = channel();
+        let ((sender, end), stop) = (channel(), Arc::new(AtomicBool::new(false)));
+        let stopped = Arc::clone(&stop);
         std::thread::spawn(move || {
-            // The window may be closed.
-            let _ = sender.send(compare(scene, volume, &card));
+            if let Some(end) = compare(scene, volume, &card, &stopped).transpose() {
+                // The window may be closed.
+                let _ = sender.send(end);
+            }
             wake();
         });
-        Self { end }
+        Self { end, stop }
     }
 
     /// Returns the outcome, once there is one.
@@ -66,13 +77,18 @@ pub fn reduced(scene: &Scene, longest: usize) -> Scene {
     scene
 }
 
-/// Compares a card with the reference on a scene.
+/// Compares a card with the reference on a scene. Once `stop` is true, the comparison soon ends without a result.
 ///
 /// # Errors
-/// The errors of [`Job::with_volume_for`] and of [`validate`].
-pub fn compare(scene: Scene, volume: Arc<Volume>, card: &Gpu) -> Result<Comparison, Failures> {
+/// The errors of [`Job::with_volume_for`] and of [`validate_until`].
+pub fn compare(
+    scene: Scene,
+    volume: Arc<Volume>,
+    card: &Gpu,
+    stop: &AtomicBool,
+) -> Result<Option<Comparison>, Failures> {
     let job = Job::with_volume_for(scene, volume, RenderTarget::Picture, Arc::new(Disk))?;
-    let found = validate(&job, card)?;
+    let Some(found) = validate_until(&job, card, stop)? else { return Ok(None) };
     let [a, b] = found.pictures.each_ref().map(Image::from);
     let map = flip::flip(&a, &b, CompareOptions::default().pixels_per_degree);
     let mut map = map.map_err(|error| Failure::picture(&error, "the difference"))?;
@@ -83,5 +99,5 @@ pub fn compare(scene: Scene, volume: Arc<Volume>, card: &Gpu) -> Result<Comparis
     }
     let bytes = rgba_codes(&difference_picture(&map), 8).map_err(|error| Failure::picture(&error, "the difference"))?;
     let difference = ColorImage::from_rgba_unmultiplied([map.width, map.height], &bytes);
-    Ok(Comparison { found, difference, largest_flip })
+    Ok(Some(Comparison { found, difference, largest_flip }))
 }

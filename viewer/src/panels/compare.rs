@@ -62,6 +62,9 @@ impl Panel for ComparePanel {
             }
             if self.running.is_some() {
                 ui.spinner();
+                if ui.button("Cancel").clicked() {
+                    self.running = None;
+                }
             }
         });
         match &self.last {

@@ -5,6 +5,7 @@ use drypoint_viewer::app::Backend;
 use drypoint_viewer::compare::{compare, reduced};
 use eframe::egui::Color32;
 use egui_kittest::kittest::Queryable;
+use std::sync::atomic::AtomicBool;
 
 /// The panel shows the verdict and the figures of `drypoint validate`.
 #[test]
@@ -13,13 +14,22 @@ fn a_comparison_tells_what_the_command_tells() {
     let Some(mut window) = window(&auto, Backend::Reference) else { return };
     window.get_by_label("Compare").click();
     window.run_steps(3);
+    // One that is cancelled says nothing, and another one can start.
+    window.get_by_label("Compare now").click();
+    window.run_steps(2);
+    window.get_by_label("Cancel").click();
+    window.run_steps(2);
+    assert!(window.query_by_label("Cancel").is_none());
     window.get_by_label("Compare now").click();
     wait_for(&mut window, "no verdict", |window| window.query_by_label_contains("Bounds: ").map(|_| ()));
     window.run_steps(3);
     let session = &viewer(&window).session;
     let scene = reduced(session.scene.as_ref().unwrap(), 64);
     let card = session.card.clone().unwrap();
-    let direct = compare(scene, session.data().unwrap().volume.clone(), &card).unwrap();
+    let volume = session.data().unwrap().volume.clone();
+    let stopped = compare(scene.clone(), volume.clone(), &card, &AtomicBool::new(true)).unwrap();
+    assert!(stopped.is_none());
+    let direct = compare(scene, volume, &card, &AtomicBool::new(false)).unwrap().unwrap();
     let bounded = direct.found.bounded.as_ref().unwrap();
     assert!(bounded.measured > 0.0 && bounded.measured <= bounded.bound && direct.found.parts_at.is_none());
     assert_eq!(direct.difference.size, [64, 48]);
