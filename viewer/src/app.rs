@@ -79,7 +79,7 @@ impl Viewer {
         let ctx_of_threads = ctx.clone();
         let wake = move || ctx_of_threads.request_repaint();
         let (worker, prober) = (Worker::new(drawing, wake.clone()), Prober::new(Box::new(wake)));
-        let panels = panels::all();
+        let panels = panels::all(state.looks());
         let tree = layout::tree(panels.len());
         let session = Session::new(document, Screen::new(render), comparing, worker, prober);
         let mut viewer = Self {
@@ -214,9 +214,10 @@ impl Viewer {
         ctx.request_repaint_after(LOOK);
     }
 
-    /// Writes the picture of the window once the frame is exact, and closes the window.
+    /// Writes the picture of the window once the frame is exact and panels show all, and closes the window.
     fn screenshot(&mut self, ctx: &Context) {
-        if let Some(path) = self.screenshot.take_if(|_| self.session.is_settled()) {
+        let is_settled = self.session.is_settled() && !self.panels.iter().any(|panel| panel.is_busy());
+        if let Some(path) = self.screenshot.take_if(|_| is_settled) {
             let window = ctx.clone();
             ctx.request_screenshot(move |image| {
                 if let Err(failure) = screenshot::write_image(&image, &path) {

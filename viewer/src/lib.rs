@@ -10,6 +10,7 @@
 //! | `brush.rs` | the thread that tells where a brush meets the volume |
 //! | [`slice`](mod@slice) | slices of the volume, a voxel a pixel |
 //! | [`focus`] | halos focused at a place |
+//! | [`looks`] | presets and own looks, with pictures |
 //! | [`compare`] | the card against the reference, in the background |
 //! | [`plane`] | counts of voxels over two quantities |
 //! | `paths.rs` | relative paths of a scene that is saved in another folder |
@@ -36,6 +37,7 @@ pub mod frames;
 pub mod gallery;
 pub mod history;
 pub mod key;
+pub mod looks;
 mod mailbox;
 pub mod open;
 mod page;

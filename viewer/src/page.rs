@@ -39,7 +39,7 @@ pub(crate) fn pages(card: Option<Gpu>, wake: Box<dyn Fn() + Send>) -> Background
 }
 
 /// Draws the exact frame of a scene. Returns none if it is stopped.
-fn draw(
+pub(crate) fn draw(
     revision: u64,
     scene: Scene,
     volume: Arc<Volume>,

@@ -46,6 +46,11 @@ impl State {
         named.or_else(|| Some(std::env::home_dir()?.join(".local/state"))).map(|folder| folder.join("drypoint-viewer"))
     }
 
+    /// The folder of the user's own looks.
+    pub fn looks(&self) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join("looks"))
+    }
+
     /// Writes the state. What cannot be written is forgotten.
     pub fn write(&self) {
         let mut kept = DocumentMut::new();

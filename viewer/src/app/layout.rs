@@ -55,6 +55,11 @@ impl egui_tiles::Behavior<Pane> for Layout<'_> {
         }
     }
 
+    /// So all tabs fit beside the picture in a window of 1200 points.
+    fn tab_title_spacing(&self, _: &egui::Visuals) -> f32 {
+        5.0
+    }
+
     fn simplification_options(&self) -> egui_tiles::SimplificationOptions {
         egui_tiles::SimplificationOptions { all_panes_must_have_tabs: false, ..Default::default() }
     }

@@ -44,6 +44,8 @@ struct PlanePart {
     counter: Option<PlaneCounter>,
     /// The last question.
     asked: Option<PlaneQuery>,
+    /// Whether its answer is to come.
+    is_asking: bool,
     /// Its answer, and the picture of it in a colour.
     counted: Option<(JointHistogram, Color32, TextureHandle)>,
     /// The second quantity that the function is to have, once the counts are known.
@@ -53,6 +55,10 @@ struct PlanePart {
 impl Panel for FunctionsPanel {
     fn title(&self) -> &'static str {
         "Function"
+    }
+
+    fn is_busy(&self) -> bool {
+        self.plane.is_asking
     }
 
     fn ui(&mut self, ui: &mut Ui, session: &mut Session) {
@@ -361,7 +367,7 @@ impl PlanePart {
             counter(Box::new(move || ctx.request_repaint()))
         });
         if self.asked.as_ref().is_none_or(|asked| !asked.is_same(&query)) {
-            self.counted = None;
+            (self.counted, self.is_asking) = (None, true);
             counter.ask(query.clone());
             self.asked = Some(query);
         }
@@ -371,6 +377,7 @@ impl PlanePart {
         };
         let is_last = |query: &PlaneQuery| self.asked.as_ref().is_some_and(|asked| asked.is_same(query));
         if let Some((_, counted)) = counter.answers().filter(|(query, _)| is_last(query)).last() {
+            self.is_asking = false;
             self.counted = counted.map(|plane| (plane.clone(), ink, picture(&plane)));
             if self.counted.is_none() {
                 self.wished = None;

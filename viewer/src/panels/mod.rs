@@ -7,6 +7,7 @@ mod compare;
 mod functions;
 mod handle;
 pub mod keys;
+mod looks;
 mod nodes;
 mod objects;
 mod paint;
@@ -14,6 +15,7 @@ mod slices;
 
 use crate::session::Session;
 use eframe::egui::{Rect, Response, Ui, pos2};
+use std::path::PathBuf;
 
 /// A panel of the window.
 pub trait Panel {
@@ -22,6 +24,11 @@ pub trait Panel {
 
     /// Shows the panel.
     fn ui(&mut self, ui: &mut Ui, session: &mut Session);
+
+    /// Whether something that it shows is still to come.
+    fn is_busy(&self) -> bool {
+        false
+    }
 
     /// Paints handles over the picture and follows drags of them. Returns whether the pointer is on one of them; the
     /// picture then does not turn.
@@ -68,10 +75,11 @@ impl PictureArea {
     }
 }
 
-/// Returns all panels, in the order of their tabs.
-pub fn all() -> Vec<Box<dyn Panel>> {
+/// Returns all panels, in the order of their tabs. `looks` is the folder of the user's own looks.
+pub fn all(looks: Option<PathBuf>) -> Vec<Box<dyn Panel>> {
     vec![
         Box::new(functions::FunctionsPanel::default()),
+        Box::new(looks::LooksPanel::new(looks)),
         Box::new(clip::ClipPanel),
         Box::new(objects::ObjectsPanel::default()),
         Box::new(slices::SlicesPanel::default()),

@@ -1,6 +1,6 @@
 //! The panel of the transfer function.
 
-use super::{SCENE, Window, difference, drag, pixels, press, settle, text, viewer, wait_for, window};
+use super::{SCENE, Window, difference, drag, pixels, press, settle, text, viewer, wait_for, window, window_in};
 use drypoint::scene::tables::{Over, RowAt};
 use drypoint_viewer::app::Backend;
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
@@ -122,4 +122,36 @@ fn a_function_gets_a_second_quantity() {
     let back = viewer(&window).session.scene.clone().unwrap().transfer.clone().unwrap();
     let nodes: Vec<[f64; 2]> = back.nodes.unwrap().iter().map(|node| [node.at, node.opacity]).collect();
     assert!(back.over == Over::Value && &nodes == whole);
+}
+
+/// A look takes the place of the scene's, and its picture is that of the volume. An own one is kept and taken back.
+#[test]
+fn a_look_is_taken_and_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(mut window) = window_in(SCENE, Backend::Reference, Some(folder.path())) else { return };
+    let first = viewer(&window).session.scene.clone().unwrap();
+    window.get_by_label("Looks").click();
+    window.run_steps(3);
+    window.get_by_label("Name of the look").focus();
+    window.step();
+    window.event(eframe::egui::Event::Text("mine".into()));
+    window.run_steps(3);
+    window.get_by_label("Keep this look").click();
+    wait_for(&mut window, "no picture", |window| window.query_by_label("the look mine").map(|_| ()));
+    wait_for(&mut window, "no picture", |window| window.query_by_label("the look style").map(|_| ()));
+    window.get_by_label("the look style").click();
+    settle(&mut window);
+    assert!(
+        text(&window).starts_with("# A ring.\ndrypoint = 1\npreset = \"style\"\n\n[volume]\n"),
+        "{}",
+        text(&window)
+    );
+    assert!(!text(&window).contains("nodes"));
+    window.get_by_label("the look mine").click();
+    settle(&mut window);
+    assert_eq!(*viewer(&window).session.scene.clone().unwrap(), *first);
+    // Both are changes that can be undone.
+    press(&mut window, Key::Z, Modifiers::COMMAND);
+    press(&mut window, Key::Z, Modifiers::COMMAND);
+    assert_eq!(text(&window), SCENE);
 }

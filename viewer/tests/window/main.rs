@@ -68,13 +68,19 @@ type Window = Harness<'static, Option<Viewer>>;
 
 /// Opens a window over a text, and waits for its exact frame.
 fn window(text: &str, backend: Backend) -> Option<Window> {
+    window_in(text, backend, None)
+}
+
+/// Opens a window that keeps its state in a folder.
+fn window_in(text: &str, backend: Backend, folder: Option<&Path>) -> Option<Window> {
+    let folder = folder.map(Path::to_owned);
     let render = device()?;
     let document = Document::untitled(text.into(), "ring.toml".into());
     let (mut document, own) = (Some(document), render.clone());
     let show = move |ui: &mut eframe::egui::Ui, viewer: &mut Option<Viewer>| {
         let ctx = ui.ctx().clone();
         let viewer = viewer.get_or_insert_with(|| {
-            Viewer::new(&ctx, Some(own.clone()), backend, document.take().unwrap(), State::read(None))
+            Viewer::new(&ctx, Some(own.clone()), backend, document.take().unwrap(), State::read(folder.clone()))
         });
         viewer.ui(ui);
     };
