@@ -198,7 +198,7 @@ pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) ->
     Ok(found.unwrap_or_else(|| unreachable!("nothing stops the comparison")))
 }
 
-/// Like [`validate`]. Once `stop` is true, the comparison soon ends without a result.
+/// Like [`validate`]. Once `stop` is true, the comparison ends without a result before the card draws on.
 ///
 /// # Errors
 /// The errors of [`validate`].

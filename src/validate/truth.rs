@@ -69,8 +69,8 @@ impl<'j> Truth<'j> {
         Ok(Self { job, plain, layered, has_further: !further.is_empty(), stages, lines, picture, bounds })
     }
 
-    /// Compares a graphics card with the reference, with edited shaders in f32. Once `stop` is true, the comparison soon ends
-    /// without a result.
+    /// Compares a graphics card with the reference, with edited shaders in f32. Once `stop` is true, the comparison ends
+    /// without a result before the card draws on.
     ///
     /// # Errors
     /// The errors of the adapter.

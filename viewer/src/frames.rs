@@ -307,7 +307,7 @@ pub fn shown_size(scene: &Scene, longest: usize) -> [usize; 2] {
 
 /// Whether something is found at a pixel of the picture: a focus of halos, or a stroke. Brushes at points of the world are
 /// not.
-fn picks(scene: &Scene) -> bool {
+pub(crate) fn picks(scene: &Scene) -> bool {
     scene.halos.iter().any(|halo| halo.seed.focus.as_ref().is_some_and(|focus| focus.pixels().is_some()))
         || scene
             .objects

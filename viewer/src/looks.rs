@@ -3,7 +3,7 @@
 
 use crate::background::{Background, Desk};
 use crate::document::Document;
-use crate::frames::Frame;
+use crate::frames::{Frame, picks};
 use crate::page::draw;
 use crate::paths::absolute_paths;
 use crate::schema::{Kind, Node, ValueKind};
@@ -35,6 +35,9 @@ const TABLES: [&str; 12] = [
     "surface",
 ];
 
+/// The pens, which a look brings if it has some. Those of the scene stay otherwise: annotations may draw with them.
+const PENS: &str = "pen";
+
 /// Pixels of the longer side of a picture.
 const SIDE: usize = 336;
 
@@ -43,7 +46,7 @@ const SIDE: usize = 336;
 pub struct Look {
     /// The name: of a preset, or of the file that keeps an own look.
     pub name: String,
-    /// What it is.
+    /// A sentence about it.
     pub doc: String,
     /// Its tables, as a scene file has them.
     pub text: String,
@@ -89,7 +92,7 @@ pub fn keep(document: &Document, folder: &Path, name: &str) -> Result<(), String
     // The look is used with scenes in other folders.
     let text = absolute_paths(&toml, document.path()).map_err(|failures| failures.to_string())?;
     let mut look: DocumentMut = text.parse().map_err(|_| "the text of the scene cannot be read".to_owned())?;
-    look.retain(|key, _| TABLES.contains(&key));
+    look.retain(|key, _| is_of_look(key));
     let is_plain = |c: char| c.is_alphanumeric() || " -_".contains(c);
     let name: String = name.trim().chars().map(|c| if is_plain(c) { c } else { '_' }).collect();
     let file = folder.join(format!("{name}.toml"));
@@ -98,11 +101,15 @@ pub fn keep(document: &Document, folder: &Path, name: &str) -> Result<(), String
     written.map_err(|error: io::Error| format!("{}: {error}", file.display()))
 }
 
+fn is_of_look(key: &str) -> bool {
+    TABLES.contains(&key) || key == PENS
+}
+
 /// Returns the text of a scene with another look; none if one of the two is no TOML.
 pub fn applied(scene: &str, look: &str) -> Option<String> {
     let (mut scene, look) = (scene.parse::<DocumentMut>().ok()?, look.parse::<DocumentMut>().ok()?);
     TABLES.iter().for_each(|key| drop(scene.remove(key)));
-    for (key, item) in look.iter() {
+    for (key, item) in look.iter().filter(|(key, _)| is_of_look(key)) {
         scene.insert(key, item.clone());
     }
     Some(scene.to_string())
@@ -144,11 +151,14 @@ fn picture(query: &LooksQuery, look: &Look, stop: &AtomicBool) -> Result<Option<
     let (text, path) = &query.scene;
     let text = applied(text, &look.text).unwrap_or_default();
     let mut scene = file::load_text(&text, path, &Overrides::default())?;
-    let [width, height] = scene.picture.size;
-    let longest = width.max(height).max(1);
-    scene.picture.size = [width, height].map(|n| (n * SIDE).div_ceil(longest).max(1));
-    // The page keeps its size.
-    scene.picture.dpi *= SIDE as f64 / longest as f64;
+    // Places at pixels would be others.
+    if !picks(&scene) {
+        let [width, height] = scene.picture.size;
+        let longest = width.max(height).max(1);
+        scene.picture.size = [width, height].map(|n| (n * SIDE).div_ceil(longest).max(1));
+        // The page keeps its size.
+        scene.picture.dpi *= SIDE as f64 / longest as f64;
+    }
     scene.picture.samples = RaysPerPixel::Across(1);
     draw(query.number, scene, Arc::clone(&query.volume), None, stop)
 }
@@ -182,6 +192,14 @@ mod tests {
         keep(&document, &looks, " my/own ").unwrap();
         let kept = all(Some(&looks)).remove(0);
         assert_eq!((kept.name.as_str(), &kept.file), ("my_own", &Some(looks.join("my_own.toml"))));
+        // Named pens come along, and what is no look does not.
+        let drawn = format!("{SCENE}[[pen]]\nname = \"fine\"\n[stipples]\npen = \"fine\"\n");
+        let document = Document::untitled(drawn, folder.path().join("a.toml"));
+        keep(&document, &looks, "pens").unwrap();
+        let pens = all(Some(&looks)).into_iter().find(|look| look.name == "pens").unwrap();
+        let text = applied(SCENE, &format!("{}\n[picture]\nsize = [8, 8]\n", pens.text)).unwrap();
+        let scene_of_pens = Document::untitled(text.clone(), "a.toml".into()).scene().unwrap();
+        assert!(scene_of_pens.pens.len() == 1 && !text.contains("[picture]"), "{text}");
         assert!(!kept.text.contains("camera") && !kept.text.contains("volume"), "{}", kept.text);
         let scene = |text: &str| Document::untitled(text.into(), "a.toml".into()).scene().unwrap();
         assert_eq!(scene(&applied(SCENE, &kept.text).unwrap()), scene(SCENE));

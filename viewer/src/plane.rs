@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// Bins along each quantity.
 const BINS: [usize; 2] = [96, 64];
 
-/// Most voxels along an axis of the grid that are counted. Of more they are as far from each other as whole steps allow.
+/// Most voxels along an axis of the grid that are counted. Along longer ones it is every ⌈n/48⌉-th voxel.
 const ALONG: usize = 48;
 
 /// Share of the voxels that lies beyond each end. Curvatures of few voxels are thousands of times those of most.
@@ -62,7 +62,9 @@ impl JointHistogram {
             return None;
         }
         let how = Reconstruction::of(&query.scene, volume.grid()).ok()?;
-        room_to_probe(volume, &how).ok()?;
+        if has_curvature {
+            room_to_probe(volume, &how).ok()?;
+        }
         let field = Field::new(volume, how, if has_curvature { Rung::Hessian } else { Rung::Gradient }).ok()?;
         let pairs: Vec<[f64; 2]> =
             voxels(volume).map(|index| measured(&field, index, &query.over)).collect::<Option<_>>()?;
@@ -118,8 +120,10 @@ fn measured(field: &Field<'_, f64>, voxel: [usize; 3], over: &[Axis; 2]) -> Opti
     let one = |axis: &Axis| match axis {
         Axis::Value => Some(field.value(p)),
         Axis::GradientMagnitude => {
+            // 0 without a normal ([PREC-3]).
             let scaled = field.voxel_gradient(voxel).to_glam().length();
-            Some(math::scale_by_power_of_two(scaled, field.scale_exponent()))
+            let has_normal = scaled > field.no_normal_below();
+            Some(if has_normal { math::scale_by_power_of_two(scaled, field.scale_exponent()) } else { 0.0 })
         }
         Axis::K1 => Some(probed?.k1),
         Axis::K2 => Some(probed?.k2),

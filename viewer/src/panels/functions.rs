@@ -4,7 +4,7 @@
 //! row of nodes is a line across; where nodes are clear, so are their discs.
 
 use super::Panel;
-use super::nodes::{self, Handle};
+use super::nodes::{self, NodeHandle};
 use crate::camera::{number, rounded};
 use crate::document::Edit;
 use crate::gallery::{DraggedStyle, Gallery};
@@ -12,7 +12,6 @@ use crate::key::KeyPath;
 use crate::plane::{JointHistogram, PlaneCounter, PlaneQuery, counter};
 use crate::session::Session;
 use crate::widgets::{color_button, named, numbers};
-use drypoint::scene::color::linear_to_srgb;
 use drypoint::scene::tables::{Axis, Node, NodeColor, Over, RowAt, Transfer, TransferKind, Unit};
 use eframe::egui::{
     self, Color32, DragValue, Pos2, Response, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, Vec2, Vec2b,
@@ -37,6 +36,28 @@ pub(super) struct FunctionsPanel {
     plane: PlanePart,
 }
 
+/// The kinds of numbers of a function.
+#[derive(Clone, Copy)]
+enum NumberKind {
+    /// A place along an axis with a span.
+    Place(f64),
+    /// The id of a label.
+    Label,
+    /// From 0 to 1.
+    Share,
+}
+
+impl NumberKind {
+    /// The kind of the places of an axis, of which some are known.
+    fn of(axis: Option<&Axis>, places: impl Iterator<Item = f64>) -> Self {
+        let [lo, hi] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], at| [lo.min(at), hi.max(at)]);
+        match axis {
+            Some(axis) if axis.is_id() => Self::Label,
+            _ => Self::Place(if hi > lo { hi - lo } else { hi.abs().max(1.0) }),
+        }
+    }
+}
+
 /// The counts over two quantities.
 #[derive(Default)]
 struct PlanePart {
@@ -48,8 +69,8 @@ struct PlanePart {
     is_asking: bool,
     /// Its answer, and the picture of it in a colour.
     counted: Option<(JointHistogram, Color32, TextureHandle)>,
-    /// The second quantity that the function is to have, once the counts are known.
-    wished: Option<Axis>,
+    /// The second quantity that the function of a document is to have, once the counts are known.
+    wished: Option<(u64, Axis)>,
 }
 
 impl Panel for FunctionsPanel {
@@ -74,9 +95,13 @@ impl Panel for FunctionsPanel {
             return;
         };
         self.gallery.open(&scene.styles.theme);
+        // A wish ends with the document and the function that it was of.
+        let can_lift = transfer.unit == Unit::Value && transfer.over == Over::Value;
+        let is_open = |(of, _): &(u64, Axis)| can_lift && *of == session.document_number();
+        self.plane.wished = self.plane.wished.take().filter(is_open);
         let over = match (&transfer.over, self.plane.wished.clone()) {
             (Over::Two(axes), _) => Some(axes.clone()),
-            (Over::Value, Some(wished)) => Some([Axis::Value, wished]),
+            (Over::Value, Some((_, wished))) => Some([Axis::Value, wished]),
             (Over::Value, None) => None,
         };
         if let Some(over) = over.filter(|_| transfer.unit == Unit::Value) {
@@ -85,7 +110,7 @@ impl Panel for FunctionsPanel {
         self.plane.take_wish(session, transfer);
         let is_written = nodes::is_written(&session.document, transfer);
         if !is_written {
-            ui.label("The nodes were found in the data, or form a grid. Once they are written so they can be moved.");
+            ui.label("The nodes were found in the data, or form a grid. Write them one by one to move them.");
             if ui.button("Write the nodes into the scene").clicked() {
                 session.edit("write the nodes", nodes::written(transfer));
             }
@@ -109,7 +134,7 @@ impl FunctionsPanel {
         ui: &mut Ui,
         session: &mut Session,
         transfer: &Transfer,
-        handles: &[Handle<'_>],
+        handles: &[NodeHandle<'_>],
         moves: bool,
     ) -> (Response, Option<KeyPath>) {
         let counts = matches!(transfer.over, Over::Value).then(|| histogram(session, transfer.unit));
@@ -171,7 +196,7 @@ impl FunctionsPanel {
             let name = ui.interact(disc, ui.scope_id().with(handle.key.to_string()), egui::Sense::hover());
             name.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, handle.key.to_string()));
         }
-        let nearest = |at: Pos2, reach: f32| nearest(&shown.transform, handles, at, reach);
+        let nearest = |at: Pos2, reach: f32| nearest(&shown.transform, handles, selected.as_ref(), at, reach);
         let over = response.contains_pointer().then(|| ui.ctx().pointer_interact_pos()).flatten();
         let hovered = over.and_then(|at| nearest(at, f32::INFINITY)).map(|i| handles[i].key.clone());
         let Some(pointer) = response.interact_pointer_pos().filter(|_| moves) else {
@@ -203,7 +228,7 @@ impl FunctionsPanel {
         &mut self,
         ui: &mut Ui,
         session: &mut Session,
-        handles: &[Handle<'_>],
+        handles: &[NodeHandle<'_>],
         (plot, hovered): (Response, Option<KeyPath>),
     ) {
         if plot.dnd_hover_payload::<DraggedStyle>().is_some() {
@@ -232,6 +257,8 @@ impl FunctionsPanel {
 
     /// Shows a line for each node, under its row if there are rows.
     fn lines(&mut self, ui: &mut Ui, session: &mut Session, transfer: &Transfer) {
+        let places = transfer.all_nodes().map(|node| node.at);
+        let across = NumberKind::of(transfer.over.axes().first(), places);
         match (&transfer.nodes, &transfer.rows, &transfer.over) {
             (_, Some(rows), Over::Two([first, second])) => {
                 ui.horizontal(|ui| {
@@ -241,13 +268,15 @@ impl FunctionsPanel {
                     }
                 });
                 let list = KeyPath::from("transfer.rows");
+                let places = rows.iter().filter_map(|row| if let RowAt::Number(at) = row.at { Some(at) } else { None });
+                let up = NumberKind::of(Some(second), places);
                 for (i, row) in rows.iter().enumerate() {
                     let key = list.item(i);
                     ui.horizontal(|ui| {
                         ui.strong(format!("row {i}"));
                         match row.at {
                             RowAt::Number(_) => {
-                                self.number(ui, session, &key.name("at"), &format!("row {i}"), f64::MAX)
+                                self.number(ui, session, &key.name("at"), &format!("at of row {i}"), up)
                             }
                             _ => drop(ui.weak("of a label")),
                         }
@@ -256,27 +285,29 @@ impl FunctionsPanel {
                             session.edit(&format!("remove {key}"), vec![Edit::Remove(key.clone())]);
                         }
                     });
-                    self.grid(ui, session, &key.name("nodes"), &row.nodes);
+                    self.grid(ui, session, &key.name("nodes"), &row.nodes, across);
                 }
                 if ui.button("Add a row").clicked() {
                     session.edit("add a row", nodes::row_added(transfer));
                 }
             }
             (Some(line), ..) => {
-                self.grid(ui, session, &"transfer.nodes".into(), line);
+                self.grid(ui, session, &"transfer.nodes".into(), line, across);
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
                     let end = line.last().map(|node| [node.at, node.opacity]);
                     if let (Some(end), true) = (end, ui.button("Add a node").clicked()) {
                         self.add(session, transfer, end);
                     }
-                    ui.menu_button("Over a second quantity", |ui| {
-                        for axis in SECOND {
-                            if ui.button(axis.name()).clicked() {
-                                self.plane.wished = Some(axis);
-                                ui.close();
+                    ui.add_enabled_ui(transfer.unit == Unit::Value, |ui| {
+                        ui.menu_button("Over a second quantity", |ui| {
+                            for axis in SECOND {
+                                if ui.button(axis.name()).clicked() {
+                                    self.plane.wished = Some((session.document_number(), axis));
+                                    ui.close();
+                                }
                             }
-                        }
+                        });
                     });
                 });
             }
@@ -285,7 +316,7 @@ impl FunctionsPanel {
     }
 
     /// Shows the nodes of a list.
-    fn grid(&mut self, ui: &mut Ui, session: &mut Session, list: &KeyPath, line: &[Node]) {
+    fn grid(&mut self, ui: &mut Ui, session: &mut Session, list: &KeyPath, line: &[Node], across: NumberKind) {
         egui::Grid::new(list.to_string()).num_columns(5).striped(true).show(ui, |ui| {
             for title in ["", "value", "opacity", "look", ""] {
                 ui.weak(title);
@@ -297,8 +328,8 @@ impl FunctionsPanel {
                 if ui.selectable_label(is_selected, RichText::new(format!("node {i}"))).clicked() {
                     self.selected = Some(key.clone());
                 }
-                self.number(ui, session, &key.name("at"), &format!("at of node {i}"), f64::MAX);
-                self.number(ui, session, &key.name("opacity"), &format!("opacity of node {i}"), 1.0);
+                self.number(ui, session, &key.name("at"), &format!("at of node {i}"), across);
+                self.number(ui, session, &key.name("opacity"), &format!("opacity of node {i}"), NumberKind::Share);
                 match &node.color {
                     NodeColor::Style(style) => {
                         let button = match self.gallery.image(ui, style, 18.0) {
@@ -331,17 +362,26 @@ impl FunctionsPanel {
         });
     }
 
-    /// Shows the number of a key: a place if `most` is infinite for it, else a share from 0 to `most`.
-    fn number(&self, ui: &mut Ui, session: &mut Session, key: &KeyPath, name: &str, most: f64) {
+    /// Shows the number of a key.
+    fn number(&self, ui: &mut Ui, session: &mut Session, key: &KeyPath, name: &str, kind: NumberKind) {
         let Some(mut x) = numbers(session.document.get(key)).and_then(|x| x.first().copied()) else {
             drop(ui.weak("1"));
             return;
         };
-        let (least, speed) = if most < f64::MAX { (0.0, 0.005) } else { (f64::MIN, (x.abs() * 0.005).max(0.002)) };
-        let drag = ui.add(DragValue::new(&mut x).speed(speed).range(least..=most).max_decimals(4));
+        let drag = DragValue::new(&mut x);
+        let drag = ui.add(match kind {
+            NumberKind::Place(span) => drag.speed(span / 500.0),
+            NumberKind::Label => drag.speed(0.1).range(0.0..=f64::from(u32::MAX)).fixed_decimals(0),
+            NumberKind::Share => drag.speed(0.005).range(0.0..=1.0).max_decimals(4),
+        });
         named(&drag, name);
         if drag.changed() {
-            session.set(key, number(rounded(x, 4)));
+            let x = match kind {
+                NumberKind::Place(span) => nodes::round_at(x, span),
+                NumberKind::Label => x.round(),
+                NumberKind::Share => rounded(x, 4),
+            };
+            session.set(key, number(x));
         }
     }
 
@@ -349,18 +389,18 @@ impl FunctionsPanel {
     fn color(&mut self, ctx: &egui::Context, node: &Node) -> Color32 {
         match &node.color {
             NodeColor::Style(name) => self.gallery.sphere(ctx, name).map_or(Color32::GRAY, |(_, color)| color),
-            NodeColor::Color(linear) => {
-                let [r, g, b] = linear.map(|c| (linear_to_srgb(c).clamp(0.0, 1.0) * 255.0).round() as u8);
-                Color32::from_rgb(r, g, b)
-            }
+            NodeColor::Color(linear) => nodes::displayed(*linear),
         }
     }
 }
 
 impl PlanePart {
     /// Asks for the counts over two quantities if they are not those that are known, and takes the answer.
-    fn follow(&mut self, ui: &Ui, session: &Session, over: [Axis; 2]) {
-        let (Some(scene), Some(data)) = (session.scene.clone(), session.data()) else { return };
+    fn follow(&mut self, ui: &Ui, session: &mut Session, over: [Axis; 2]) {
+        let (Some(scene), Some(data)) = (session.scene.clone(), session.data()) else {
+            self.counted = None;
+            return;
+        };
         let query = PlaneQuery { scene, volume: Arc::clone(&data.volume), over };
         let counter = self.counter.get_or_insert_with(|| {
             let ctx = ui.ctx().clone();
@@ -379,8 +419,8 @@ impl PlanePart {
         if let Some((_, counted)) = counter.answers().filter(|(query, _)| is_last(query)).last() {
             self.is_asking = false;
             self.counted = counted.map(|plane| (plane.clone(), ink, picture(&plane)));
-            if self.counted.is_none() {
-                self.wished = None;
+            if self.counted.is_none() && self.wished.take().is_some() {
+                session.notice = "There is no memory for this quantity".into();
             }
         }
         // The window was made dark or light.
@@ -391,19 +431,27 @@ impl PlanePart {
 
     /// Gives a function over the value its second quantity, once the counts are known.
     fn take_wish(&mut self, session: &mut Session, transfer: &Transfer) {
+        let is_of = |(_, wished): &mut (u64, Axis)| self.asked.as_ref().is_some_and(|asked| asked.over[1] == *wished);
         if let Some((plane, ..)) = &self.counted
-            && let Some(wished) = self.wished.take()
+            && let Some((_, wished)) = self.wished.take_if(is_of)
         {
             session.edit("a function over two quantities", nodes::lifted(transfer, &wished, plane.ends[1]));
         }
     }
 }
 
-/// Returns the node nearest to a place in the window within a reach.
-fn nearest(transform: &PlotTransform, handles: &[Handle<'_>], at: Pos2, reach: f32) -> Option<usize> {
-    let place = |handle: &Handle<'_>| transform.position_from_point(&PlotPoint::new(handle.at[0], handle.at[1]));
-    let far = handles.iter().map(|handle| place(handle).distance(at)).enumerate();
-    far.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far)| *far <= reach).map(|(i, _)| i)
+/// Returns the node nearest to a place in the window within a reach. Of nodes at one place it is the selected one.
+fn nearest(
+    transform: &PlotTransform,
+    handles: &[NodeHandle<'_>],
+    selected: Option<&KeyPath>,
+    at: Pos2,
+    reach: f32,
+) -> Option<usize> {
+    let place = |handle: &NodeHandle<'_>| transform.position_from_point(&PlotPoint::new(handle.at[0], handle.at[1]));
+    let far = handles.iter().map(|handle| (place(handle).distance(at), selected != Some(&handle.key))).enumerate();
+    let nearest = far.min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    nearest.filter(|(_, (far, _))| *far <= reach).map(|(i, _)| i)
 }
 
 /// Places and heights of the log histogram in the unit of nodes. Heights are ln(1 + count), of which the largest is 1. A

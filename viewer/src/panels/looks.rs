@@ -96,7 +96,14 @@ impl Panel for LooksPanel {
 impl LooksPanel {
     /// Asks for the pictures of another volume, and takes those that have come.
     fn follow(&mut self, ui: &Ui, session: &Session) {
-        let Some(data) = session.data() else { return };
+        let (Some(data), None) = (session.data(), &session.failures) else {
+            // The looks are drawn once the scene can be.
+            if self.asked.1.as_ref().is_some_and(|asked| asked.0 != session.document_number()) {
+                self.asked.1 = None;
+                self.pictures.fill(None);
+            }
+            return;
+        };
         let about = (session.document_number(), Arc::clone(&data.volume));
         let is_same = |asked: &(u64, Arc<Volume>)| asked.0 == about.0 && Arc::ptr_eq(&asked.1, &about.1);
         let painter = self.painter.get_or_insert_with(|| {
@@ -145,7 +152,11 @@ fn item(ui: &mut Ui, session: &mut Session, look: &Look, picture: Option<&Result
             Some(Err(error)) => error,
             _ => &look.doc,
         };
-        let response = ui.add(button.frame(false).min_size(Vec2::new(SIDE, SIDE * 0.75))).on_hover_text(doc);
+        let can_draw = !matches!(picture, Some(Err(_)));
+        let response = ui
+            .add_enabled(can_draw, button.frame(false).min_size(Vec2::new(SIDE, SIDE * 0.75)))
+            .on_hover_text(doc)
+            .on_disabled_hover_text(doc);
         if response.clicked()
             && let Some(text) = looks::applied(session.document.text(), &look.text)
         {
