@@ -21,6 +21,8 @@ pub(super) enum Source {
     Default(PathBuf),
     /// A figure file.
     Figure(PathBuf),
+    /// A scene as the window shows it, with a panel beside it.
+    Window(PathBuf, &'static str),
 }
 
 impl Source {
@@ -30,7 +32,7 @@ impl Source {
     /// The faults of a figure file, and a panel that is no scene, or one with another volume or camera.
     pub(super) fn scenes(&self) -> Result<Vec<(PathBuf, Overrides)>, String> {
         match self {
-            Self::Scene(path) | Self::Default(path) => Ok(vec![(path.clone(), Overrides::default())]),
+            Self::Scene(path) | Self::Default(path) | Self::Window(path, _) => Ok(vec![(path.clone(), Overrides::default())]),
             Self::Figure(path) => panels(&figure(path)?).map_err(|e| format!("{}: {e}", path.display())),
         }
     }
@@ -55,6 +57,10 @@ fn panels(figure: &Figure) -> Result<Vec<(PathBuf, Overrides)>, String> {
 
 /// Panels of halos' figures that are also shown large.
 const LARGE_PARTS: [&str; 1] = ["figure_9_b"];
+
+/// The scenes in `docs/pictures/window`, and the panel that the window has open.
+const WINDOWS: [(&str, &str); 5] =
+    [("cut", "Cuts"), ("function", "Function"), ("looks", "Looks"), ("move", "Objects"), ("paint", "Objects")];
 
 /// Scenes without a picture of their own: they are timed, measured, or drawn as a page to plot.
 const WITHOUT: [&str; 8] = [
@@ -90,6 +96,10 @@ pub(super) fn all() -> Result<Vec<DocPicture>, String> {
             pictures.push(DocPicture { file: format!("pictures/{room}/{stem}.png"), source: Source::Scene(scene) });
         }
     }
+    pictures.extend(WINDOWS.map(|(stem, panel)| {
+        let file = format!("pictures/window/{stem}");
+        DocPicture { source: Source::Window(in_docs(&format!("{file}.toml")), panel), file: format!("{file}.png") }
+    }));
     pictures.sort_by(|a, b| a.file.cmp(&b.file));
     Ok(pictures)
 }

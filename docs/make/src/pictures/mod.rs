@@ -4,6 +4,7 @@ mod catalogue;
 mod encode;
 mod fingerprints;
 mod of_scene;
+mod window;
 
 use crate::files;
 use catalogue::{DocPicture, Source};
@@ -64,6 +65,7 @@ impl DocPicture {
                 let page = page(&catalogue::figure(path)?, scenes).map_err(|e| e.to_string())?;
                 (page, encode::opaque_png as Encode)
             }
+            Source::Window(path, panel) => (window::picture(path, panel)?, encode::opaque_png as Encode),
         };
         let bytes = encode(&picture).map_err(|e| e.to_string())?;
         if bytes.len() > LARGEST {
