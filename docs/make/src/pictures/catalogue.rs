@@ -32,7 +32,9 @@ impl Source {
     /// The faults of a figure file, and a panel that is no scene, or one with another volume or camera.
     pub(super) fn scenes(&self) -> Result<Vec<(PathBuf, Overrides)>, String> {
         match self {
-            Self::Scene(path) | Self::Default(path) | Self::Window(path, _) => Ok(vec![(path.clone(), Overrides::default())]),
+            Self::Scene(path) | Self::Default(path) | Self::Window(path, _) => {
+                Ok(vec![(path.clone(), Overrides::default())])
+            }
             Self::Figure(path) => panels(&figure(path)?).map_err(|e| format!("{}: {e}", path.display())),
         }
     }
