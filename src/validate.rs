@@ -198,12 +198,14 @@ pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) ->
     Ok(found.unwrap_or_else(|| unreachable!("nothing stops the comparison")))
 }
 
-/// Like [`validate`]. Once `stop` is true, the comparison ends without a result before the card draws on.
+/// Like [`validate`]. Once `stop` is true, the comparison ends without a result before a picture is drawn on, or once the
+/// bounds are derived.
 ///
 /// # Errors
 /// The errors of [`validate`].
 pub fn validate_until(job: &Job, gpu: &Gpu, stop: &AtomicBool) -> Result<Option<Validation>, Failure> {
-    Truth::new(job, &[])?.validate(gpu, &|text| text, stop)
+    let Some(truth) = Truth::until(job, &[], stop)? else { return Ok(None) };
+    truth.validate(gpu, &|text| text, stop)
 }
 
 #[cfg(test)]

@@ -40,11 +40,12 @@ pub struct Truth<'j> {
 }
 
 impl<'j> Truth<'j> {
-    /// Draws the scene of a job and derives its bounds. `further` are layers to compare beside those of the stages.
+    /// Draws the scene of a job and derives its bounds. `further` are layers to compare beside those of the stages. Returns none
+    /// if `stop` is true before the bounds are derived.
     ///
     /// # Errors
     /// The errors of [`Job::renderer`].
-    pub fn new(job: &'j Job, further: &[LayerKind]) -> Result<Self, Failure> {
+    pub fn until(job: &'j Job, further: &[LayerKind], stop: &AtomicBool) -> Result<Option<Self>, Failure> {
         let mut scene = job.scene.clone();
         scene.picture.layers = vec![LayerKind::Beauty];
         let plain = job.variant(scene.clone());
@@ -59,14 +60,24 @@ impl<'j> Truth<'j> {
         let mut reference = job.renderer_of(&layered)?;
         let lines = lines_inside(job, &reference)?;
         reference.merge(lines.clone());
-        let (picture, _) = reference.again(&|_| ());
+        let Some((picture, _)) = reference.again_until(&|_| (), stop) else { return Ok(None) };
         // Beside objects, meshes and halos the colours alone have bounds.
         let with_layers = bounds(job, &layered, lines.clone())?;
         let bounds = match with_layers {
             Err(_) if further.is_empty() => bounds(job, &plain, lines.clone())?,
             found => found,
         };
-        Ok(Self { job, plain, layered, has_further: !further.is_empty(), stages, lines, picture, bounds })
+        let has_further = !further.is_empty();
+        Ok(Some(Self { job, plain, layered, has_further, stages, lines, picture, bounds }))
+    }
+
+    /// Draws the scene of a job and derives its bounds. See [`until`](Self::until).
+    ///
+    /// # Errors
+    /// The errors of [`Job::renderer`].
+    pub fn new(job: &'j Job, further: &[LayerKind]) -> Result<Self, Failure> {
+        let truth = Self::until(job, further, &AtomicBool::new(false))?;
+        Ok(truth.unwrap_or_else(|| unreachable!("nothing stops the reference")))
     }
 
     /// Compares a graphics card with the reference, with edited shaders in f32. Once `stop` is true, the comparison ends

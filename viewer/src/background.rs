@@ -44,6 +44,11 @@ impl<Q: Send + 'static, A: Send + 'static> Background<Q, A> {
     pub(crate) fn answers(&self) -> impl Iterator<Item = A> + '_ {
         self.answers.try_iter()
     }
+
+    /// Whether the thread is there. A fault of the program ends it, or the system does not start it.
+    pub(crate) fn is_alive(&self) -> bool {
+        self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
+    }
 }
 
 impl<Q, A> Drop for Background<Q, A> {
@@ -51,6 +56,13 @@ impl<Q, A> Drop for Background<Q, A> {
         self.mailbox.close();
         // A thread that panicked has nothing to hand over.
         let _ = self.thread.take().map(JoinHandle::join);
+    }
+}
+
+impl<Q, A> Drop for Desk<Q, A> {
+    fn drop(&mut self) {
+        // The window is to see that there will be no answer.
+        (self.wake)();
     }
 }
 
@@ -68,5 +80,31 @@ impl<Q, A> Desk<Q, A> {
         // Nobody listens only while the window closes.
         let _ = self.sender.send(answer);
         (self.wake)();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_thread_that_panics_is_seen() {
+        let (sender, woken) = channel();
+        let wake = Box::new(move || sender.send(()).unwrap_or_default());
+        let background: Background<u32, u32> = Background::new("panics", wake, |desk| {
+            while let Some(n) = desk.wait() {
+                desk.answer(6_u32.checked_div(n).expect("a number that is not 0"));
+            }
+        });
+        background.ask(2);
+        woken.recv_timeout(Duration::from_secs(60)).unwrap();
+        assert_eq!((background.answers().collect(), background.is_alive()), (vec![3], true));
+        background.ask(0);
+        woken.recv_timeout(Duration::from_secs(60)).unwrap();
+        while background.is_alive() {
+            std::thread::yield_now();
+        }
+        assert_eq!(background.answers().count(), 0);
     }
 }

@@ -253,6 +253,13 @@ impl PaintTool {
 
     /// Takes the answer to the question, and appends the dabs that it is of.
     fn take(&mut self, session: &mut Session) {
+        if self.asked.is_some() && self.picker.as_ref().is_some_and(|picker| !picker.is_alive()) {
+            // The next question starts another thread.
+            (self.picker, self.asked) = (None, None);
+            self.waiting.clear();
+            session.notice = "The thread of the brush has ended by a fault; the last dabs are lost.".into();
+            return;
+        }
         let answer = self.picker.as_ref().and_then(|picker| picker.answers().last());
         let Some((part, answer)) = self.asked.take_if(|_| answer.is_some()).zip(answer) else { return };
         let found: Vec<Picked> = match answer {
