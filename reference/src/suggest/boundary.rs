@@ -22,6 +22,8 @@ pub(super) struct FirstSurfaces {
     pub hull: Option<ValueSurface>,
     /// Whether the content consists of thin parts: vessels, shells, flames.
     pub thin: bool,
+    /// Whether the opaque surface lies between two voxels. The trilinear kernel follows the cells there, which shows as teeth.
+    pub steep: bool,
 }
 
 /// A local maximum of the score.
@@ -62,6 +64,8 @@ const HULL: f64 = 2.2;
 const ROOM: f64 = 0.3;
 /// Least step, as a share of the range. A ramp across one or two integers would show the rounding.
 const LEAST_STEP: f64 = 0.03;
+/// Share of the range above which a change in one voxel across a surface is steep.
+const STEEP: f64 = 0.3;
 /// Least distance of a surface from the outermost and the innermost value, as a share of its step.
 const EDGE: f64 = 0.5;
 /// Skin against air, and bone, in Hounsfield units.
@@ -91,7 +95,7 @@ impl FirstSurfaces {
             // The nodes around the value must be finite numbers, too.
             let step = value.abs().max(1.0).min(2.0 * (f64::MAX - value.abs()));
             let main = ValueSurface { value, step };
-            return Self { main, hull: None, thin: false };
+            return Self { main, hull: None, thin: false, steep: false };
         };
         if let Some(known) = skin_and_bone(volume, outside, levels) {
             return known;
@@ -100,11 +104,13 @@ impl FirstSurfaces {
         let body = body(&peaks).unwrap_or(ScorePeak { share: 0.5, score: 0.0, level: *levels.at(0.5) });
         let surface = |share| surface(levels, share);
         let thin = body.level.simplicity < THIN;
+        let steep = |level: &Level| level.step > STEEP && level.agreement > NOISE;
         if let Some(kernel) = kernel(&peaks, &body) {
-            return Self { main: surface(kernel.share), hull: Some(surface(body.share)), thin };
+            let (main, hull) = (surface(kernel.share), Some(surface(body.share)));
+            return Self { main, hull, thin, steep: steep(&kernel.level) };
         }
         let hull = hull(levels, &body).map(surface);
-        Self { main: surface(body.share), hull, thin }
+        Self { main: surface(body.share), hull, thin, steep: steep(&body.level) }
     }
 
     /// The surface at which content begins: the hull, or the main surface.
@@ -137,7 +143,7 @@ fn skin_and_bone(volume: &Volume, outside: Outside, levels: &Levels) -> Option<F
     // A scan that is cut out of a body has no skin to show, and a wax head has no bone.
     let whole = hounsfield && levels.at(skin.1).cut < BOXED && levels.at(bone.1).inside > SOMETHING;
     let [hull, main] = [skin, bone].map(|(value, share)| ValueSurface { value, ..surface(levels, share) });
-    whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false })
+    whole.then_some(FirstSurfaces { main, hull: Some(hull), thin: false, steep: false })
 }
 
 /// Area times (step · agreement)², weighted. The weights favour surfaces that enclose much with little area and that

@@ -123,7 +123,7 @@ fn of_values(mut scene: Scene, volume: &Volume, size: [usize; 2], counts: &mut C
     };
     let shown = surface_styles::short(value, step);
     scene.volume.parts = debris::without_debris(volume, ContentRange { value: shown, outside });
-    frame(&mut scene, volume, [inside, seen], size)?;
+    frame(&mut scene, volume, [inside, seen], boundary.steep, size)?;
     Ok(scene)
 }
 
@@ -134,15 +134,16 @@ fn of_labels(mut scene: Scene, present: &Volume, size: [usize; 2]) -> Result<Sce
     if let Some(transfer) = &mut scene.transfer {
         transfer.nodes = Some(surface_styles::label_nodes());
     }
-    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], size)?;
+    frame(&mut scene, present, [ContentRange { value: 0.5, outside: Outside::Low }; 2], false, size)?;
     Ok(scene)
 }
 
-/// Sets camera, picture and lines for the content, and for the visible surface around it.
+/// Sets camera, picture, kernel and lines for the content, and for the visible surface around it.
 fn frame(
     scene: &mut Scene,
     volume: &Volume,
     [inside, seen]: [ContentRange; 2],
+    is_steep: bool,
     size: [usize; 2],
 ) -> Result<(), NoRoom> {
     let body = VolumeContent::of(volume, inside)?;
@@ -165,12 +166,12 @@ fn frame(
         return Ok(());
     }
     let thick = has_thick_slices(volume.grid());
-    if thick && scene.surface.is_none() {
-        // Terraces are as high as a slice. A smoothing kernel rounds them off.
-        scene.sampling.kernel = Kernel::BsplineSmooth;
-    }
     // Small content gets finer steps, and a reference length that keeps it as opaque.
     let finer = fit.extent / (FINE * volume.grid().voxel());
+    // Terraces are as high as a slice. A smoothing kernel rounds them off, and teeth, too. Small steep content would fade.
+    if (thick || is_steep && finer >= 1.0) && scene.surface.is_none() {
+        scene.sampling.kernel = Kernel::BsplineSmooth;
+    }
     if finer < 1.0 {
         // Otherwise such small content would stay translucent.
         scene.sampling.step = Length::Voxels(three_digits(0.5 * finer));
@@ -301,6 +302,18 @@ mod tests {
         }
         // One slice has no neighbour.
         assert!(!has_thick_slices(&Grid::with_spacing([9, 9, 1], [1.0, 1.0, 5.0]).unwrap()));
+    }
+
+    /// The logistic edge of width w is as steep as 1/4w.
+    #[test]
+    fn steep_surfaces_are_smoothed() {
+        for (w, steep) in [(1.0, false), (0.5, true)] {
+            let ball = typed(|p| 200.0 / (1.0 + ((radius(p) - 10.0) / w).exp()), VoxelType::U8);
+            let found = suggested(&ball);
+            let plan = drypoint_scene::plan::Plan::new(&found);
+            let is_told = plan.has_pass(drypoint_scene::plan::Pass::SmoothingKernel);
+            assert_eq!((found.sampling.kernel == Kernel::BsplineSmooth, is_told), (steep, steep), "{w}");
+        }
     }
 
     #[test]

@@ -117,7 +117,7 @@ mod tests {
     fn nodes_ascend_from_transparent_to_opaque() {
         let hull = Some(ValueSurface { value: 40.0, step: 20.0 });
         for main in [ValueSurface { value: 100.0, step: 40.0 }, ValueSurface { value: 45.0, step: 40.0 }] {
-            let low = FirstSurfaces { main, hull, thin: false };
+            let low = FirstSurfaces { main, hull, thin: false, steep: false };
             let palette = Palette { hull: GLASS, main: WAX };
             let nodes = nodes(&low, palette, TransferKind::Style, Outside::Low);
             assert!(nodes.windows(2).all(|pair| pair[0].at <= pair[1].at), "{nodes:?}");
@@ -137,7 +137,8 @@ mod tests {
 
     #[test]
     fn mirrored_values_have_mirrored_nodes() {
-        let main = |value| FirstSurfaces { main: ValueSurface { value, step: 4.0 }, hull: None, thin: true };
+        let main =
+            |value| FirstSurfaces { main: ValueSurface { value, step: 4.0 }, hull: None, thin: true, steep: false };
         let palette = Palette { hull: GLASS, main: WAX };
         let low = nodes(&main(10.0), palette, TransferKind::Regular, Outside::Low);
         let mut high = nodes(&main(-10.0), palette, TransferKind::Regular, Outside::High);

@@ -18,6 +18,9 @@ pub(super) const RULES: Rules = Rules {
         if matches!(sampling.kernel, Kernel::Bspline | Kernel::Bspline5) {
             asks.pass(Pass::Coefficients, "prefiltered kernel", "sampling.kernel");
         }
+        if sampling.kernel == Kernel::BsplineSmooth {
+            asks.pass(Pass::SmoothingKernel, "reconstruction", "sampling.kernel");
+        }
         let of_rays = asks.first(Quantity::Hessian).filter(|_| asks.casts_rays()).map(|need| need.effect.clone());
         let of_strokes = strokes_read_hessians(scene, has_strokes).then(|| "hatching".into());
         let hessian = of_rays.or(of_strokes);
