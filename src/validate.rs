@@ -198,8 +198,8 @@ pub fn validate_edited(job: &Job, gpu: &Gpu, edit: &dyn Fn(String) -> String) ->
     Ok(found.unwrap_or_else(|| unreachable!("nothing stops the comparison")))
 }
 
-/// Like [`validate`]. Once `stop` is true, the comparison ends without a result before a picture is drawn on, or once the
-/// bounds are derived.
+/// Like [`validate`]. Once `stop` is true, the comparison ends without a result. It is not looked at while bounds are
+/// derived.
 ///
 /// # Errors
 /// The errors of [`validate`].

@@ -28,18 +28,16 @@ impl LimitArgs {
             memory::limit(bytes);
         }
         let of_machine = || std::thread::available_parallelism().map_or(1, usize::from);
-        let tried = self.threads.unwrap_or_else(of_machine).saturating_mul(BYTES_OF_A_THREAD);
+        let threads = self.threads.unwrap_or_else(of_machine);
         let refused = |error: &dyn std::fmt::Display| {
             let what = format!("the threads cannot be started: {error}");
             let place = self.threads.map_or("--threads".into(), |n| format!("--threads {n}"));
             Failure::new(what, place, "ask for fewer with --threads, or allow the process more memory")
         };
         // A thread that starts and finds no memory would abort the process, so the address space is tried before.
-        let tried = std::hint::black_box(&mut Vec::<u8>::new()).try_reserve_exact(tried);
+        let tried = std::hint::black_box(&mut Vec::<u8>::new()).try_reserve_exact(threads * BYTES_OF_A_THREAD);
         tried.map_err(|error| refused(&error))?;
-        // For the pool 0 means its default.
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
-        pool.build_global().map_err(|error| refused(&error))
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build_global().map_err(|error| refused(&error))
     }
 }
 

@@ -41,7 +41,7 @@ pub struct Truth<'j> {
 
 impl<'j> Truth<'j> {
     /// Draws the scene of a job and derives its bounds. `further` are layers to compare beside those of the stages. Returns none
-    /// if `stop` is true before the bounds are derived.
+    /// if `stop` becomes true while the picture is drawn.
     ///
     /// # Errors
     /// The errors of [`Job::renderer`].

@@ -1,7 +1,7 @@
 //! Times from a change of a scene to the first frame that shows it, and to the exact frame, by the thread that draws for the
 //! window: on the CPU, and on a card if there is one. As in the window, software is no card. The engine at 800×600 pixels.
 //!
-//! `cargo bench -p drypoint-viewer --bench frames`
+//! `cargo bench -p drypoint-viewer --bench frames`, with the scans in `DRYPOINT_DATA` or `../shared/data`
 
 use drypoint::cost::median;
 use drypoint::gpu::Gpu;
@@ -42,6 +42,9 @@ const CHANGES: [(&str, &str, &str); 5] = [
     ("a dab", "\"20 voxels\" }", "\"20 voxels\" }, { at = [140, 60, 60], radius = \"20 voxels\" }"),
 ];
 
+/// Time after which a frame is given up.
+const LONGEST: Duration = Duration::from_secs(120);
+
 /// Rounds in which every change is made and taken back.
 const ROUNDS: usize = 3;
 
@@ -50,7 +53,7 @@ fn times(worker: &Worker, revision: u64, text: &str) -> Result<[f64; 2], String>
     let scene = load_text(text, "engine.toml".as_ref(), &Overrides::default()).map_err(|faults| faults.to_string())?;
     let (start, mut first) = (Instant::now(), None);
     worker.ask(Request { revision, scene, longest: 800 });
-    loop {
+    while start.elapsed() < LONGEST {
         for answer in worker.answers() {
             match answer {
                 Answer::Drawn(frame) if frame.revision == revision => {
@@ -66,6 +69,7 @@ fn times(worker: &Worker, revision: u64, text: &str) -> Result<[f64; 2], String>
         }
         std::thread::sleep(Duration::from_micros(200));
     }
+    Err("no exact frame has come".into())
 }
 
 fn main() -> Result<(), String> {

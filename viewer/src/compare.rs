@@ -77,7 +77,7 @@ pub fn reduced(scene: &Scene, longest: usize) -> Scene {
     scene
 }
 
-/// Compares a card with the reference on a scene. Once `stop` is true, it ends without a result ([`validate_until`]).
+/// Compares a card with the reference on a scene. Once `stop` is true, the comparison ends without a result ([`validate_until`]).
 ///
 /// # Errors
 /// The errors of [`Job::with_volume_for`] and of [`validate_until`].

@@ -22,7 +22,7 @@ pub(super) struct FirstSurfaces {
     pub hull: Option<ValueSurface>,
     /// Whether the content consists of thin parts: vessels, shells, flames.
     pub thin: bool,
-    /// Whether the opaque surface lies between two voxels. The trilinear kernel follows the cells there, which shows as teeth.
+    /// Whether most of the opaque surface's rise happens within a voxel. The trilinear kernel shows the cells there as teeth.
     pub steep: bool,
 }
 

@@ -304,7 +304,7 @@ mod tests {
         assert!(!has_thick_slices(&Grid::with_spacing([9, 9, 1], [1.0, 1.0, 5.0]).unwrap()));
     }
 
-    /// The logistic edge of width w is as steep as 1/4w.
+    /// The logistic edge of width w is as steep as 1/(4w).
     #[test]
     fn steep_surfaces_are_smoothed() {
         for (w, steep) in [(1.0, false), (0.5, true)] {

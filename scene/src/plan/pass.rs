@@ -9,7 +9,7 @@ pub enum Pass {
     Coefficients,
     /// Coefficients of the B-spline of the smoothed grid ([REC-3]).
     SmoothedCoefficients,
-    /// A kernel that smooths: it meets no voxel's own value ([REC-1]).
+    /// A kernel that smooths: it does not interpolate the voxels ([REC-1]).
     SmoothingKernel,
     /// The quantile of ‖g‖ over the voxels, if `gradient_range` gives no numbers ([VAL-2]).
     GradientRange,
@@ -159,7 +159,7 @@ impl Pass {
             Self::Parts => "two looks at each voxel, three numbers a run of voxels along x",
             Self::Coefficients => "one filter along each axis, one number a voxel",
             Self::SmoothedCoefficients => "two filters along each axis, one number a voxel",
-            Self::SmoothingKernel => "64 voxels a sample, which rounds teeth and terraces between voxels",
+            Self::SmoothingKernel => "64 voxels a sample; teeth and terraces between voxels are rounded",
             Self::GradientRange => "one gradient a voxel",
             Self::AutomaticTransfer | Self::AutomaticIso => "one look at each voxel and its neighbours",
             Self::LabelDistances => "one search a voxel of the labels, one number each",
@@ -173,9 +173,7 @@ impl Pass {
             Self::StillFactor => "one number a voxel with points",
             Self::Rays => "samples² rays a pixel; \"auto\": one, or four everywhere",
             Self::Clip => "one look at the planes a ray, a point and a vertex of a line",
-            Self::Refinement => {
-                "four rays a pixel that differs from a neighbour by more than contrast, four more if they differ"
-            }
+            Self::Refinement => "four rays a pixel that differs from a neighbour, four more if 5 differ",
             Self::Selections => "one membership a sample in the selection's box",
             Self::MovedSelections => "a second look-up a sample in the moved selection's box",
             Self::Cutaways => "one box a ray; with cut = \"object\" the samples of the object, once more",

@@ -390,7 +390,7 @@ transfer function            value          one reconstruction a sample         
 shading                      gradient       one gradient a visible sample                                           shading (--set)
 skipping what shows nothing  brick ranges   one look at each voxel                                                  sampling.skip_empty (default)
 picture                      rays           samples² rays a pixel; \"auto\": one, or four everywhere                  picture.samples (default)
-antialiasing                 rays at edges  eight rays a pixel that differs from a neighbour by more than contrast  picture.samples (default)
+antialiasing                 rays at edges  four rays a pixel that differs from a neighbour, four more if 5 differ  picture.samples (default)
 
 without effect
   volume.range (line 4): only transfer.unit = \"normalized\" is measured in it

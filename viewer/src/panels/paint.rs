@@ -255,9 +255,11 @@ impl PaintTool {
     fn take(&mut self, session: &mut Session) {
         if self.asked.is_some() && self.picker.as_ref().is_some_and(|picker| !picker.is_alive()) {
             // The next question starts another thread.
-            (self.picker, self.asked) = (None, None);
-            self.waiting.clear();
-            session.notice = "The thread of the brush has ended by a fault; the last dabs are lost.".into();
+            self.picker = None;
+            let lost = self.asked.take().into_iter().chain(self.waiting.drain(..));
+            if lost.filter(|part| part.stroke.is_some()).count() > 0 {
+                session.notice = "The thread of the brush has ended; dabs without an answer are lost.".into();
+            }
             return;
         }
         let answer = self.picker.as_ref().and_then(|picker| picker.answers().last());
